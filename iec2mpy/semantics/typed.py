@@ -1,0 +1,346 @@
+"""The checked program: every expression has its type, every name its variable. What the IR is built from.
+
+Implicit conversions stand in it as `Convert`, constants are folded to `Constant`, arguments are matched to their
+parameters. It holds no errors: it is only built from a program that has none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from iec2mpy.semantics.types import Type
+from iec2mpy.source.spans import Span
+from iec2mpy.syntax.tree import PouKind, Section
+
+Scalar = int | float | str
+"""A value as it is stored: BOOL 0 or 1, integers, bit strings and enumerations their (mathematical) number, TIME
+milliseconds, REAL float, STRING str."""
+Value = Scalar | Sequence["Value"] | Mapping[str, "Value"]
+"""Also whole: arrays as (nested) sequences, structures and instances as mappings by case-folded name. Complete for
+arrays and structures; for an instance it holds only what is given, the rest follows from its declaration."""
+
+# ------------------------------------------------------------------------------------ variables and POUs
+
+
+@dataclass(eq=False, slots=True)
+class Variable:
+    """A declared variable, a field of a structure, or a parameter.
+
+    `section` is None for a field, and RESULT_SECTION does not exist: a function's result is `Pou.result`.
+    `initial` is complete: the declared value, or that of the type. `address` is the normal form of its location.
+    For EXTERNAL, `target` is the global variable meant.
+    """
+
+    name: str
+    type: Type
+    section: Section | None
+    span: Span
+    initial: Value
+    constant: bool = False
+    retain: bool = False
+    address: str | None = None
+    target: Variable | None = None
+    owner: Pou | None = None
+
+    @property
+    def key(self) -> str:
+        return self.name.casefold()
+
+
+@dataclass(eq=False, slots=True)
+class Pou:
+    """A program organization unit. `variables` in order of declaration, by case-folded name.
+
+    `result` is the variable that a function's result is assigned to, and has the function's name.
+    """
+
+    kind: PouKind
+    name: str
+    span: Span
+    variables: dict[str, Variable] = field(default_factory=dict)
+    result: Variable | None = None
+    body: tuple[Stmt, ...] = ()
+
+    @property
+    def inputs(self) -> list[Variable]:
+        return [v for v in self.variables.values() if v.section is Section.INPUT]
+
+    @property
+    def parameters(self) -> list[Variable]:
+        """Inputs, outputs and in-outs, in order of declaration: what a call may name."""
+        return [v for v in self.variables.values() if v.section in (Section.INPUT, Section.OUTPUT, Section.IN_OUT)]
+
+
+@dataclass(eq=False, slots=True)
+class Task:
+    """`interval` in microseconds."""
+
+    name: str
+    interval: int
+    priority: int
+    span: Span
+
+
+@dataclass(eq=False, slots=True)
+class ProgramInstance:
+    """A program as it runs. `task` is None where it has none: it runs once a scan."""
+
+    name: str
+    pou: Pou
+    task: Task | None
+    span: Span
+    retain: bool = False
+
+
+@dataclass(eq=False, slots=True)
+class Application:
+    """All that runs on one controller.
+
+    Without a CONFIGURATION there is one task of the default interval, named "main", over all programs.
+    """
+
+    globals: dict[str, Variable]
+    pous: list[Pou]
+    tasks: list[Task]
+    programs: list[ProgramInstance]
+
+
+# ------------------------------------------------------------------------------------------ expressions
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """A value known at compile time, as it is stored."""
+
+    value: Scalar
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class VariableRef:
+    """A variable of this POU or a global one (an EXTERNAL is replaced by its global)."""
+
+    variable: Variable
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class DirectRef:
+    """`%IX0.0` in an expression: a variable that has no other name; `variable.address` is its address."""
+
+    variable: Variable
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class FieldRef:
+    """A field of a structure, or a variable of an instance."""
+
+    base: Expr
+    field: Variable
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class ElementRef:
+    """An element of an array; as many indices as dimensions, each of an integer type."""
+
+    base: Expr
+    indices: tuple[Expr, ...]
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Convert:
+    """From the operand's type to `type`; implicit ones (figure 12) and X_TO_Y alike. `truncate` is TRUNC."""
+
+    operand: Expr
+    type: Type
+    span: Span
+    truncate: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Unary:
+    """`operator`: "-", "NOT"."""
+
+    operator: str
+    operand: Expr
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Binary:
+    """Both operands have the same type, except for shifts by time (TIME * INT and its like: `left` is the TIME).
+
+    `operator`: + - * / MOD ** AND OR XOR = <> < > <= >=; `type` is BOOL for comparisons.
+    """
+
+    operator: str
+    left: Expr
+    right: Expr
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class BuiltinCall:
+    """A standard function that is no operator, by its name in `stdlib/functions.toml` (ABS, SHL, LIMIT, LEFT, …)."""
+
+    name: str
+    arguments: tuple[Expr, ...]
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class InputArgument:
+    """A value for an input, already of the input's type."""
+
+    parameter: Variable
+    value: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class InOutArgument:
+    """The variable that an in-out stands for."""
+
+    parameter: Variable
+    target: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class OutputArgument:
+    """Where an output goes after the call. `value` is what is assigned: a reference to the output (for a block a
+    FieldRef of the instance, for a function a VariableRef of the parameter), negated or converted as need be."""
+
+    parameter: Variable
+    target: Expr
+    value: Expr
+
+
+ActualParameter = InputArgument | InOutArgument | OutputArgument
+
+
+@dataclass(frozen=True, slots=True)
+class FunctionCall:
+    """A call of a user's function. `arguments` in the order written; inputs left out take their initial values.
+
+    `type` is None for a function without a result: it stands only in a CallStmt.
+    """
+
+    function: Pou
+    arguments: tuple[ActualParameter, ...]
+    type: Type | None
+    span: Span
+
+
+Expr = (
+    Constant
+    | VariableRef
+    | DirectRef
+    | FieldRef
+    | ElementRef
+    | Convert
+    | Unary
+    | Binary
+    | BuiltinCall
+    | FunctionCall
+)
+
+# ------------------------------------------------------------------------------------------- statements
+
+
+@dataclass(frozen=True, slots=True)
+class Assign:
+    """The value has the target's type, except that a subrange takes its base type: the run time checks it."""
+
+    target: Expr
+    value: Expr
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class CallFunction:
+    """A function called for what it does."""
+
+    call: FunctionCall
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class CallBlock:
+    """An instance invoked. `instance` is an Expr of a BlockType; inputs left out keep their values."""
+
+    instance: Expr
+    block: Pou
+    arguments: tuple[ActualParameter, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class If:
+    branches: tuple[tuple[Expr, tuple[Stmt, ...]], ...]
+    otherwise: tuple[Stmt, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """`groups`: the labels as ranges (low, high) of numbers, with what they select; the first match runs."""
+
+    selector: Expr
+    groups: tuple[tuple[tuple[tuple[int, int], ...], tuple[Stmt, ...]], ...]
+    otherwise: tuple[Stmt, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class For:
+    """All four expressions have the control variable's base type; `step` is often a Constant."""
+
+    control: Expr
+    start: Expr
+    end: Expr
+    step: Expr
+    body: tuple[Stmt, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class While:
+    condition: Expr
+    body: tuple[Stmt, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Repeat:
+    body: tuple[Stmt, ...]
+    until: Expr
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Exit:
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Continue:
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Return:
+    span: Span
+
+
+Stmt = Assign | CallFunction | CallBlock | If | Case | For | While | Repeat | Exit | Continue | Return

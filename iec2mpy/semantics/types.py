@@ -1,0 +1,203 @@
+"""The types: the one place that knows what each holds, how wide it is, and where it lives.
+
+Elementary types are a table (table 10); derived types are nominal, and compare by identity, except for arrays and
+strings, which compare by what they are made of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from iec2mpy.semantics.typed import Pou, Value, Variable
+
+
+class Kind(Enum):
+    """The branches of the tree of generic types (figure 5) that behave alike."""
+
+    BOOL = "bool"
+    SIGNED = "signed integer"
+    UNSIGNED = "unsigned integer"
+    BITS = "bit string"
+    REAL = "real"
+    DURATION = "duration"
+    STRING = "string"
+
+
+@dataclass(frozen=True, slots=True)
+class ElementaryType:
+    """A row of table 10. `low` and `high` bound the values of what is stored as an integer."""
+
+    name: str
+    kind: Kind
+    bits: int
+    low: int
+    high: int
+
+    @property
+    def in_objects(self) -> bool:
+        """Whether a value lives in `O` (a Python object) and not in `V` (a 32-bit slot)."""
+        return self.kind in (Kind.REAL, Kind.STRING) or self.bits > 32
+
+    def __str__(self) -> str:
+        return self.name
+
+
+def _signed(name: str, bits: int, kind: Kind = Kind.SIGNED) -> ElementaryType:
+    return ElementaryType(name, kind, bits, -(1 << bits - 1), (1 << bits - 1) - 1)
+
+
+def _unsigned(name: str, bits: int, kind: Kind) -> ElementaryType:
+    return ElementaryType(name, kind, bits, 0, (1 << bits) - 1)
+
+
+BOOL = _unsigned("BOOL", 1, Kind.BOOL)
+SINT = _signed("SINT", 8)
+INT = _signed("INT", 16)
+DINT = _signed("DINT", 32)
+USINT = _unsigned("USINT", 8, Kind.UNSIGNED)
+UINT = _unsigned("UINT", 16, Kind.UNSIGNED)
+UDINT = _unsigned("UDINT", 32, Kind.UNSIGNED)
+BYTE = _unsigned("BYTE", 8, Kind.BITS)
+WORD = _unsigned("WORD", 16, Kind.BITS)
+DWORD = _unsigned("DWORD", 32, Kind.BITS)
+REAL = ElementaryType("REAL", Kind.REAL, 32, 0, 0)
+TIME = _signed("TIME", 32, Kind.DURATION)  # milliseconds
+
+ELEMENTARY: Mapping[str, ElementaryType] = {
+    t.name: t for t in (BOOL, SINT, INT, DINT, USINT, UINT, UDINT, BYTE, WORD, DWORD, REAL, TIME)
+}
+"""By name, in capitals. STRING has a length, and is `StringType`."""
+
+NOT_YET = frozenset(
+    "LINT ULINT LWORD LREAL LTIME DATE LDATE TOD TIME_OF_DAY LTOD LTIME_OF_DAY DT DATE_AND_TIME LDT LDATE_AND_TIME "
+    "CHAR WCHAR WSTRING".split()
+)
+"""Elementary types of the standard that this compiler does not have yet."""
+
+DEFAULT_STRING_LENGTH = 254
+
+
+@dataclass(frozen=True, slots=True)
+class StringType:
+    """STRING of up to `length` characters."""
+
+    length: int = DEFAULT_STRING_LENGTH
+
+    def __str__(self) -> str:
+        return "STRING" if self.length == DEFAULT_STRING_LENGTH else f"STRING[{self.length}]"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class EnumType:
+    """`values`: the number of each name (as declared), in order; `default` a number."""
+
+    name: str
+    base: ElementaryType
+    values: Mapping[str, int]
+    default: int
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SubrangeType:
+    """`name` is "INT (0..5)" where it has none of its own."""
+
+    name: str
+    base: ElementaryType
+    low: int
+    high: int
+    default: int
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True, slots=True)
+class ArrayType:
+    """`bounds`: (low, high) of each dimension, both inclusive."""
+
+    element: Type
+    bounds: tuple[tuple[int, int], ...]
+
+    @property
+    def lengths(self) -> tuple[int, ...]:
+        return tuple(high - low + 1 for low, high in self.bounds)
+
+    def __str__(self) -> str:
+        return f"ARRAY[{', '.join(f'{low}..{high}' for low, high in self.bounds)}] OF {self.element}"
+
+
+@dataclass(eq=False, slots=True)
+class StructType:
+    """`fields` by their case-folded names, in order. Filled after it is made, as a structure may hold others."""
+
+    name: str
+    fields: dict[str, Variable] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(eq=False, slots=True)
+class BlockType:
+    """The type of the instances of a function block."""
+
+    name: str
+    pou: Pou
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class AliasType:
+    """`TYPE speed : INT := 5; END_TYPE`: another name, and another initial value, of a type (table 11)."""
+
+    name: str
+    target: Type
+    default: Value
+
+    def __str__(self) -> str:
+        return self.name
+
+
+Type = ElementaryType | StringType | EnumType | SubrangeType | ArrayType | StructType | BlockType | AliasType
+
+
+def base_type(t: Type) -> Type:
+    """The type without aliases and subranges: what operations are chosen by."""
+    while isinstance(t, (AliasType, SubrangeType)):
+        t = t.target if isinstance(t, AliasType) else t.base
+    return t
+
+
+def unaliased(t: Type) -> Type:
+    """The type without aliases; a subrange stays one."""
+    while isinstance(t, AliasType):
+        t = t.target
+    return t
+
+
+def value_type(t: Type) -> ElementaryType | StringType | None:
+    """The elementary type that a single value is stored as, or None for what has several."""
+    t = base_type(t)
+    if isinstance(t, EnumType):
+        return t.base
+    return t if isinstance(t, (ElementaryType, StringType)) else None
+
+
+def value_range(t: Type) -> tuple[int, int] | None:
+    """Lowest and highest value of what is stored as an integer in V, or None for everything else."""
+    t = unaliased(t)
+    if isinstance(t, SubrangeType):
+        return t.low, t.high
+    stored = value_type(t)
+    if isinstance(stored, ElementaryType) and not stored.in_objects:
+        return stored.low, stored.high
+    return None
