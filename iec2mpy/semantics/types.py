@@ -93,12 +93,17 @@ class StringType:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EnumType:
-    """`values`: the number of each name (as declared), in order; `default` a number."""
+    """`values`: the number of each name (as declared), in order; `default` a number.
+
+    `open` for a type with named values (`INT (a := 1, b := 2)`): it takes every value of its base, and is used like it
+    (6.4.4.3.1). Others take only what is listed, and have no operations but = and <> (6.4.4.2.1).
+    """
 
     name: str
     base: ElementaryType
     values: Mapping[str, int]
     default: int
+    open: bool = False
 
     def __str__(self) -> str:
         return self.name
@@ -171,8 +176,8 @@ Type = ElementaryType | StringType | EnumType | SubrangeType | ArrayType | Struc
 
 
 def base_type(t: Type) -> Type:
-    """The type without aliases and subranges: what operations are chosen by."""
-    while isinstance(t, (AliasType, SubrangeType)):
+    """The type without aliases, subranges and named values: what operations are chosen by."""
+    while isinstance(t, (AliasType, SubrangeType)) or (isinstance(t, EnumType) and t.open):
         t = t.target if isinstance(t, AliasType) else t.base
     return t
 

@@ -1,0 +1,336 @@
+"""What every operation means, on values as they are stored (`typed.Scalar`).
+
+Pure functions, in one place: the checker folds constants with them, the optimiser does, and tests take them as the
+model that generated code is compared to. Integers wrap to the width of their type after each operation; REAL is single
+precision; an operation that stops the controller at run time raises `ArithmeticFault` here.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+import struct
+from collections.abc import Callable, Mapping, Sequence
+
+from iec2mpy.semantics.typed import Scalar
+from iec2mpy.semantics.types import DWORD, REAL, TIME, ElementaryType, Kind, StringType
+
+SingleType = ElementaryType | StringType
+"""The type of a single value: enumerations, subranges and aliases are reduced to it by `types.value_type`."""
+
+
+class ArithmeticFault(Exception):
+    """`kind`: "zero" for a division, "range" for a value that the result cannot have (the run time's faults)."""
+
+    def __init__(self, kind: str) -> None:
+        super().__init__(kind)
+        self.kind = kind
+
+
+# ------------------------------------------------------------------------------------------ single values
+
+
+def wrap(value: int, to: ElementaryType) -> int:
+    """The value of type `to` with the same low bits."""
+    value &= (1 << to.bits) - 1
+    return value - (1 << to.bits) if value > to.high else value
+
+
+def to_single(value: float) -> float:
+    """The nearest single-precision number; infinity where the value is too large for one."""
+    try:
+        return struct.unpack("<f", struct.pack("<f", value))[0]
+    except OverflowError:
+        return math.copysign(math.inf, value)
+
+
+def truncating_divide(dividend: int, divisor: int) -> int:
+    """Integer division that rounds towards zero (table 29, 4); raises `ArithmeticFault` for a divisor of 0."""
+    if divisor == 0:
+        raise ArithmeticFault("zero")
+    quotient = abs(dividend) // abs(divisor)
+    return quotient if (dividend < 0) == (divisor < 0) else -quotient
+
+
+def modulo(dividend: int, divisor: int) -> int:
+    """The remainder of `truncating_divide`: it has the sign of the dividend. 0 for a divisor of 0 (table 29, note e)."""
+    return dividend - truncating_divide(dividend, divisor) * divisor if divisor else 0
+
+
+# ---------------------------------------------------------------------------------------------- operators
+
+
+def _single(function: Callable[..., float], *arguments: float) -> float:
+    """The single-precision result; an argument outside of the function's domain faults, overflow gives infinity."""
+    try:
+        return to_single(function(*arguments))
+    except OverflowError:
+        return math.inf
+    except ValueError:
+        raise ArithmeticFault("range") from None
+
+
+def _divide_real(dividend: float, divisor: float) -> float:
+    if divisor == 0:
+        raise ArithmeticFault("zero")
+    return dividend / divisor
+
+
+def _power(base: float, exponent: float) -> float:
+    """`base ** exponent`. The sign of an overflow is that of the true result, which `_single` cannot know."""
+    try:
+        return math.pow(base, exponent)
+    except OverflowError:
+        return -math.inf if base < 0 and exponent % 2 == 1 else math.inf
+
+
+_INTEGER: Mapping[str, Callable[[int, int], int]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": truncating_divide,
+    "MOD": modulo,
+    "AND": operator.and_,
+    "OR": operator.or_,
+    "XOR": operator.xor,
+}
+_REAL: Mapping[str, Callable[[float, float], float]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": _divide_real,
+    "**": _power,
+}
+_COMPARE: Mapping[str, Callable[[Scalar, Scalar], bool]] = {
+    "=": operator.eq,
+    "<>": operator.ne,
+    "<": operator.lt,
+    ">": operator.gt,
+    "<=": operator.le,
+    ">=": operator.ge,
+}
+COMPARISONS = frozenset(_COMPARE)
+
+
+def binary(name: str, left: Scalar, right: Scalar, left_type: SingleType, right_type: SingleType) -> Scalar:
+    """`left name right`; both have one type, except for TIME * number and TIME / number. A comparison gives 0 or 1."""
+    if name in _COMPARE:
+        # strings compare by the codes of their characters, the shorter one first (6.6.2.5.10)
+        return int(_COMPARE[name](left, right))
+    assert isinstance(left_type, ElementaryType)
+    if left_type is REAL:
+        return _single(_REAL[name], float(left), float(right))
+    if left_type is TIME and right_type is REAL:
+        product = _single(_REAL[name], to_single(float(left)), float(right))
+        return _round_to(product, TIME)
+    assert isinstance(left, int) and isinstance(right, int)
+    return wrap(_INTEGER[name](left, right), left_type)
+
+
+def unary(name: str, operand: Scalar, of: SingleType) -> Scalar:
+    """`-operand` of a number or a TIME, `NOT operand` of a bit string."""
+    assert isinstance(of, ElementaryType)
+    if of is REAL:
+        return -float(operand)
+    assert isinstance(operand, int)
+    return wrap(-operand if name == "-" else ~operand, of)
+
+
+# -------------------------------------------------------------------------------------------- conversions
+
+
+def _in_range(value: int, to: ElementaryType) -> int:
+    if not to.low <= value <= to.high:
+        raise ArithmeticFault("range")
+    return value
+
+
+def _round_to(value: float, to: ElementaryType, truncate: bool = False) -> int:
+    """A REAL as an integer: half to even (6.6.2.5.3), or towards zero."""
+    if not math.isfinite(value):
+        raise ArithmeticFault("range")
+    return _in_range(int(value) if truncate else round(value), to)
+
+
+def _parse_integer(text: str) -> int:
+    """A decimal integer with an optional sign, nothing else; everything else faults `range`."""
+    digits = text[1:] if text[:1] in ("+", "-") else text
+    if not digits or not all("0" <= c <= "9" for c in digits):
+        raise ArithmeticFault("range")
+    return int(text)
+
+
+_BOOL_TEXT = {"FALSE": 0, "TRUE": 1, "0": 0, "1": 1}
+
+
+def _from_text(text: str, to: ElementaryType) -> int:
+    if to.kind is Kind.BOOL:
+        if text.upper() not in _BOOL_TEXT:
+            raise ArithmeticFault("range")
+        return _BOOL_TEXT[text.upper()]
+    return _in_range(_parse_integer(text), to)
+
+
+def _is_bits(of: ElementaryType) -> bool:
+    return of.kind in (Kind.BOOL, Kind.BITS)
+
+
+def convert(value: Scalar, source: SingleType, to: SingleType, truncate: bool = False) -> Scalar:
+    """A value of type `source` as one of type `to` (table 22).
+
+    Numbers keep their value or fault `range`; from and to bit strings the low bits are kept, without sign extension
+    (6.6.2.5.5); REAL and DWORD exchange the bit pattern; TIME counts as its milliseconds; a string is cut to its length.
+    """
+    if isinstance(to, StringType):
+        if isinstance(source, ElementaryType):
+            value = ("FALSE", "TRUE")[int(value)] if source.kind is Kind.BOOL else str(value)
+        return str(value)[: to.length]
+    if isinstance(source, StringType):
+        return _from_text(str(value), to)
+    if source is to:
+        return value
+    if source is REAL:
+        if to is DWORD:
+            return struct.unpack("<I", struct.pack("<f", value))[0]
+        return _round_to(float(value), to, truncate)
+    assert isinstance(value, int)
+    if to is REAL:
+        return struct.unpack("<f", struct.pack("<I", value))[0] if source is DWORD else to_single(float(value))
+    if _is_bits(source) or _is_bits(to):
+        return wrap(value & ((1 << source.bits) - 1), to)
+    return _in_range(value, to)
+
+
+# ------------------------------------------------------------------------------------- standard functions
+
+
+def _shift(name: str, value: int, count: int, of: ElementaryType) -> int:
+    if count < 0:  # an error by table 30
+        raise ArithmeticFault("range")
+    if name == "SHL":
+        return wrap(value << min(count, of.bits), of)
+    if name == "SHR":
+        return value >> min(count, of.bits)
+    count %= of.bits
+    if name == "ROR":
+        count = of.bits - count
+    return wrap(value << count | value >> of.bits - count, of)
+
+
+def _clamped(text: str, length: int, position: int = 1) -> slice:
+    """The part of a text of `length` characters from `position` (from 1), cut to what is there."""
+    start = max(position, 1) - 1
+    return slice(start, start + max(length, 0))
+
+
+def _left(text: str, length: int) -> str:
+    return text[: max(length, 0)]
+
+
+def _right(text: str, length: int) -> str:
+    return text[max(len(text) - max(length, 0), 0) :]
+
+
+def _mid(text: str, length: int, position: int) -> str:
+    return text[_clamped(text, length, position)]
+
+
+def _insert(text: str, inserted: str, position: int) -> str:
+    at = max(position, 0)
+    return text[:at] + inserted + text[at:]
+
+
+def _delete(text: str, length: int, position: int) -> str:
+    return _replace(text, "", length, position)
+
+
+def _replace(text: str, replacement: str, length: int, position: int) -> str:
+    part = _clamped(text, length, position)
+    return text[: part.start] + replacement + text[part.stop :]
+
+
+def _find(text: str, sought: str) -> int:
+    return text.find(sought) + 1 if sought else 0
+
+
+_STRING_FUNCTIONS: Mapping[str, Callable[..., Scalar]] = {
+    "LEN": len,
+    "LEFT": _left,
+    "RIGHT": _right,
+    "MID": _mid,
+    "CONCAT": lambda *texts: "".join(texts),
+    "INSERT": _insert,
+    "DELETE": _delete,
+    "REPLACE": _replace,
+    "FIND": _find,
+}
+
+
+_REAL_FUNCTIONS: Mapping[str, Callable[..., float]] = {
+    "SQRT": math.sqrt,
+    "LN": lambda x: math.log(x),
+    "LOG": math.log10,
+    "EXP": math.exp,
+    "SIN": math.sin,
+    "COS": math.cos,
+    "TAN": math.tan,
+    "ASIN": math.asin,
+    "ACOS": math.acos,
+    "ATAN": math.atan,
+    "ATAN2": math.atan2,
+}
+
+
+def _limit(low: Scalar, value: Scalar, high: Scalar) -> Scalar:
+    """MIN(MAX(value, low), high): `high` wins where the limits cross (table 32, 5)."""
+    return _minimum(_maximum(value, low), high)
+
+
+def _maximum(*values: Scalar) -> Scalar:
+    best = values[0]
+    for value in values[1:]:
+        if value > best:  # type: ignore[operator] - all have one type
+            best = value
+    return best
+
+
+def _minimum(*values: Scalar) -> Scalar:
+    best = values[0]
+    for value in values[1:]:
+        if value < best:  # type: ignore[operator] - all have one type
+            best = value
+    return best
+
+
+def _multiplex(selector: int, *values: Scalar) -> Scalar:
+    if not 0 <= selector < len(values):
+        raise ArithmeticFault("range")
+    return values[selector]
+
+
+_SELECTIONS: Mapping[str, Callable[..., Scalar]] = {
+    "SEL": lambda g, in0, in1: in1 if g else in0,
+    "MAX": _maximum,
+    "MIN": _minimum,
+    "LIMIT": _limit,
+    "MUX": _multiplex,
+}
+
+
+def builtin(name: str, arguments: Sequence[Scalar], result: SingleType) -> Scalar:
+    """A standard function that is no operator, by its name; `result` is the type of what it gives.
+
+    String functions clamp lengths and positions; their result is cut to the length of `result`.
+    """
+    if name in _SELECTIONS:
+        return _SELECTIONS[name](*arguments)
+    if name in _STRING_FUNCTIONS:
+        value = _STRING_FUNCTIONS[name](*arguments)
+        return value[: result.length] if isinstance(value, str) and isinstance(result, StringType) else value
+    if name in _REAL_FUNCTIONS:
+        return _single(_REAL_FUNCTIONS[name], *map(float, arguments))
+    assert isinstance(result, ElementaryType)
+    value = arguments[0]
+    if name == "ABS":
+        return abs(value) if isinstance(value, float) else wrap(abs(int(value)), result)
+    return _shift(name, int(value), int(arguments[1]), result)

@@ -1,0 +1,129 @@
+"""Which types go where: sameness, implicit conversions (figures 11 and 12), common types, explicit conversions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from iec2mpy.semantics.types import (
+    BOOL,
+    BYTE,
+    DINT,
+    DWORD,
+    ELEMENTARY,
+    INT,
+    REAL,
+    SINT,
+    TIME,
+    UDINT,
+    UINT,
+    USINT,
+    WORD,
+    ArrayType,
+    ElementaryType,
+    Kind,
+    StringType,
+    SubrangeType,
+    Type,
+    base_type,
+    unaliased,
+)
+
+UNTYPED_INT = ElementaryType("integer literal", Kind.SIGNED, 0, 0, 0)
+UNTYPED_REAL = ElementaryType("real literal", Kind.REAL, 0, 0, 0)
+"""The types of literals without a prefix until their context gives them one (6.6.1.6, rule 8). They stand in constants
+only, and never in a checked program."""
+
+_WIDER: Mapping[ElementaryType, tuple[ElementaryType, ...]] = {
+    SINT: (INT, DINT, REAL),
+    INT: (DINT, REAL),
+    USINT: (UINT, INT, UDINT, DINT, REAL),
+    UINT: (UDINT, DINT, REAL),
+    BOOL: (BYTE, WORD, DWORD),
+    BYTE: (WORD, DWORD),
+    WORD: (DWORD,),
+}
+"""Figure 12: the conversions that keep every value; the nearest types first."""
+
+INTEGER_KINDS = frozenset((Kind.SIGNED, Kind.UNSIGNED))
+BIT_KINDS = frozenset((Kind.BOOL, Kind.BITS))
+NUMBER_KINDS = frozenset((Kind.SIGNED, Kind.UNSIGNED, Kind.REAL))
+
+
+def is_untyped(t: Type) -> bool:
+    return t is UNTYPED_INT or t is UNTYPED_REAL
+
+
+def is_integer(t: Type) -> bool:
+    """Whether a value of the type is an integer number (ANY_INT), subranges and named values included."""
+    t = base_type(t)
+    return isinstance(t, ElementaryType) and t.kind in INTEGER_KINDS
+
+
+def same_type(a: Type, b: Type) -> bool:
+    """Whether a variable of one type is one of the other: aliases do not count, array bounds and ranges do."""
+    a, b = unaliased(a), unaliased(b)
+    if isinstance(a, SubrangeType) and isinstance(b, SubrangeType):
+        return (a.base, a.low, a.high) == (b.base, b.low, b.high)
+    if isinstance(a, ArrayType) and isinstance(b, ArrayType):
+        return a.bounds == b.bounds and same_type(a.element, b.element)
+    return a == b
+
+
+def converts_implicitly(source: Type, target: Type) -> bool:
+    """Whether a value of type `source` may stand where one of type `target` is needed."""
+    source, target = base_type(source), base_type(target)
+    if isinstance(source, StringType):
+        return isinstance(target, StringType)  # of any length: what is too long is cut (6.6.1.2.2)
+    if isinstance(source, ElementaryType):
+        return source is target or target in _WIDER.get(source, ())
+    return same_type(source, target)
+
+
+def common_type(a: ElementaryType, b: ElementaryType) -> ElementaryType | None:
+    """The least type that both convert to implicitly, or None (6.6.1.6, rule 7)."""
+    if a is b:
+        return a
+    reached = (b, *_WIDER.get(b, ()))
+    return next((t for t in (a, *_WIDER.get(a, ())) if t in reached), None)
+
+
+def literal_type(value: int) -> ElementaryType | None:
+    """The type of an integer literal that no context gives one, or None where no type holds it."""
+    return next((t for t in (INT, DINT, UDINT) if t.low <= value <= t.high), None)
+
+
+_DIRECT_PATTERN = {(REAL, DWORD), (DWORD, REAL)}
+
+
+def converts_explicitly(source: ElementaryType | StringType, target: ElementaryType | StringType) -> bool:
+    """Whether there is a function SOURCE_TO_TARGET (tables 22 to 25)."""
+    if isinstance(source, StringType) or isinstance(target, StringType):
+        other = target if isinstance(source, StringType) else source
+        return isinstance(other, StringType) or other.kind in INTEGER_KINDS or other is BOOL
+    if source is target or (source, target) in _DIRECT_PATTERN:
+        return True
+    # A REAL has no bits to cut or to fill: only DWORD has its width. BOOL counts as the number 0 or 1.
+    if REAL in (source, target):
+        other = target if source is REAL else source
+        return other.kind in INTEGER_KINDS or other is TIME or (other is BOOL and target is REAL)
+    return True
+
+
+def conversion_name(source: Type, target: Type) -> str | None:
+    """The name of the function that converts between two types, or None where there is none."""
+    source, target = base_type(source), base_type(target)
+    if not isinstance(source, (ElementaryType, StringType)) or not isinstance(target, (ElementaryType, StringType)):
+        return None
+    if is_untyped(source) or not converts_explicitly(source, target):
+        return None
+    return f"{_plain_name(source)}_TO_{_plain_name(target)}"
+
+
+def _plain_name(t: ElementaryType | StringType) -> str:
+    return "STRING" if isinstance(t, StringType) else t.name
+
+
+def type_named(name: str) -> ElementaryType | StringType | None:
+    """The elementary type of that name, in any letter case; STRING with its usual length."""
+    name = name.upper()
+    return StringType() if name == "STRING" else ELEMENTARY.get(name)
