@@ -8,7 +8,6 @@ import os
 import subprocess
 import sys
 import tempfile
-import urllib.error
 import urllib.request
 import venv
 
@@ -16,13 +15,14 @@ OLDEST = (3, 11)
 INSTALLER = "https://bootstrap.pypa.io/get-pip.py"
 
 
-def has_module(name):
-    return subprocess.call([sys.executable, "-c", "import " + name], stderr=subprocess.DEVNULL) == 0
+def this_python_can(statement):
+    return subprocess.call([sys.executable, "-c", statement], stderr=subprocess.DEVNULL) == 0
 
 
 def pip_of_this_python(python):
     """An installed pip of 22.3 or later can install for another interpreter."""
-    return has_module("pip") and subprocess.call([sys.executable, "-m", "pip", "--python", python, "install", "-q", "pip"]) == 0
+    command = [sys.executable, "-m", "pip", "--python", python, "install", "--quiet", "pip"]
+    return this_python_can("import pip.__main__") and subprocess.call(command) == 0
 
 
 def pip_by_its_installer(python):
@@ -30,7 +30,7 @@ def pip_by_its_installer(python):
     try:
         with urllib.request.urlopen(INSTALLER, timeout=60) as answer:
             text = answer.read()
-    except (OSError, urllib.error.URLError) as error:
+    except OSError as error:
         print("It cannot be fetched: " + str(error), file=sys.stderr)
         return False
     with tempfile.TemporaryDirectory() as folder:
@@ -42,9 +42,10 @@ def pip_by_its_installer(python):
 
 def main():
     if sys.version_info < OLDEST:
-        sys.exit("iec2mpy needs Python 3.11 or later; this is %s. Name another one: make PYTHON=python3.12" % sys.version.split()[0])
+        here = sys.version.split()[0]
+        sys.exit("iec2mpy needs Python 3.11 or later; this is " + here + ". Name another one: make PYTHON=python3.12")
     folder = os.path.abspath(sys.argv[1])
-    with_pip = has_module("ensurepip")
+    with_pip = this_python_can("from ensurepip import version")
     venv.create(folder, clear=True, with_pip=with_pip, symlinks=os.name != "nt")
     python = os.path.join(folder, "bin", "python")
     if not (with_pip or pip_of_this_python(python) or pip_by_its_installer(python)):

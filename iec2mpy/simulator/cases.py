@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import difflib
 import tomllib
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -80,7 +80,11 @@ class BadCase:
 
 def load_case_file(path: Path) -> list[Case | BadCase]:
     """All cases of a file, in its order. Raises CaseFileError where the file cannot be read as TOML."""
-    tables = _tables(path)
+    return cases_of(path, read_tables(path))
+
+
+def cases_of(path: Path, tables: Iterable[Mapping[str, Any]]) -> list[Case | BadCase]:
+    """The cases that the tables of a file hold."""
     cases: list[Case | BadCase] = []
     seen: dict[str, int] = {}
     for position, table in enumerate(tables, start=1):
@@ -98,7 +102,8 @@ def load_case_file(path: Path) -> list[Case | BadCase]:
     return cases
 
 
-def _tables(path: Path) -> list[dict[str, Any]]:
+def read_tables(path: Path) -> list[dict[str, Any]]:
+    """The tables `[[case]]` of a file, unchecked. Raises CaseFileError where the file cannot be read as TOML."""
     try:
         with path.open("rb") as file:
             data = tomllib.load(file)
