@@ -1,0 +1,126 @@
+"""`program.names`: finds a variable by its path, and says how its value looks.
+
+The file is read line by line when something is asked for, as a board has no room for a table of names.
+"""
+
+from mcu_runtime.arithmetic import f32
+
+_DEFAULT_LENGTH = 254
+
+
+class Names:
+    def __init__(self, path):
+        self._path = path
+
+    def resolve(self, path):
+        """The `Place` of a variable such as `main.a[3].x`; KeyError where there is none."""
+        pattern, subscripts = _pattern(path)
+        fields = self._line(pattern)
+        if fields is None:
+            raise KeyError("there is no variable %s" % path)
+        _, type_name, array, slot, low, high, dimensions = fields
+        slot = int(slot)
+        dimensions = dimensions.split(";")
+        for i, index in enumerate(subscripts):
+            first, last, stride = [int(number) for number in dimensions[i].split(":")]
+            if not first <= index <= last:
+                raise KeyError("%s: the subscript %d is not in %d..%d" % (path, index, first, last))
+            slot += (index - first) * stride
+        enumeration = self._line("=" + type_name) if array == "V" and type_name not in _ELEMENTARY else None
+        members = {}
+        for member in enumeration[1:] if enumeration else ():
+            name, number = member.split(":")
+            members[name] = int(number)
+        limits = (int(low), int(high)) if array == "V" else (0, 0)
+        return Place(path, type_name, array, slot, limits[0], limits[1], members)
+
+    def place(self, site):
+        """Where a fault was raised: `main.st:12 (main)`; "" for site 0, and where the file does not say."""
+        fields = self._line("@%d" % site) if site else None
+        return "%s:%s (%s)" % (fields[1], fields[2], fields[3]) if fields else ""
+
+    def _line(self, key):
+        """The fields of the line that starts with `key`, or None."""
+        start = key + "\t"
+        with open(self._path) as file:
+            for line in file:
+                if line.startswith(start):
+                    return line.rstrip("\r\n").split("\t")
+        return None
+
+
+_ELEMENTARY = ("BOOL", "SINT", "INT", "DINT", "USINT", "UINT", "UDINT", "BYTE", "WORD", "DWORD", "TIME")
+
+
+class Place:
+    """One variable. Values: BOOL bool, integers and bit strings int, TIME int (ms), REAL float, STRING str, an
+    enumeration the name of the value."""
+
+    def __init__(self, path, type_name, array, slot, low, high, members):
+        self.path = path
+        self.type = type_name
+        self.array = array
+        self.slot = slot
+        self.low = low
+        self.high = high
+        self._members = members
+
+    def decode(self, stored):
+        """The value that is stored as `stored`."""
+        if self.array == "O":
+            return stored
+        if self.type == "BOOL":
+            return stored != 0
+        for name, number in self._members.items():
+            if number == stored:
+                return name
+        return stored + 0x100000000 if stored < 0 <= self.low else stored
+
+    def encode(self, value):
+        """How `value` is stored; ValueError where the declared type does not have it."""
+        if self.array == "O":
+            return self._object(value)
+        if self._members:
+            for name, number in self._members.items():
+                if isinstance(value, str) and name.lower() == value.lower():
+                    return number
+            raise ValueError("%s is one of %s" % (self.path, ", ".join(self._members)))
+        if isinstance(value, bool):
+            if self.type != "BOOL":
+                value = None
+        elif not isinstance(value, int):
+            value = None
+        if value is None or not self.low <= value <= self.high:
+            if self.type == "BOOL":
+                raise ValueError("%s is False or True" % self.path)
+            raise ValueError("%s is a %s: a whole number from %d to %d" % (self.path, self.type, self.low, self.high))
+        value = int(value)
+        return value - 0x100000000 if value > 0x7FFFFFFF else value
+
+    def _object(self, value):
+        if not self.type.startswith("STRING"):
+            if isinstance(value, bool) or not isinstance(value, (int, float)):
+                raise ValueError("%s is a %s: a number" % (self.path, self.type))
+            return f32(float(value))
+        length = int(self.type[7:-1]) if "[" in self.type else _DEFAULT_LENGTH
+        if not isinstance(value, str) or len(value) > length:
+            raise ValueError("%s is a %s: a text of at most %d characters" % (self.path, self.type, length))
+        return value
+
+
+def _pattern(path):
+    """`Main.A[3, 4].x` gives ("main.a[,].x", [3, 4])."""
+    pattern = ""
+    subscripts = []
+    rest = path.replace(" ", "").lower()
+    while "[" in rest:
+        before, _, rest = rest.partition("[")
+        inside, closed, rest = rest.partition("]")
+        try:
+            subscripts += [int(number) for number in inside.split(",")]
+        except ValueError:
+            closed = ""
+        if not closed:
+            raise KeyError("there is no variable %s: a subscript is a whole number" % path)
+        pattern += before + "[" + "," * inside.count(",") + "]"
+    return pattern + rest, subscripts
