@@ -61,7 +61,9 @@ class Controller:
         self.tasks = sorted(tasks, key=lambda task: task.priority)  # stable: then as declared
         self.period = min([task.interval for task in tasks]) if tasks else DEFAULT_PERIOD_US
         self._untimed = Task("", self.period, 0, program.UNTIMED) if program.UNTIMED else None
-        self._all = [*self.tasks, self._untimed] if self._untimed else self.tasks
+        self._all = list(self.tasks)
+        if self._untimed:
+            self._all.append(self._untimed)
         self._now = 0  # ms, as in slot NOW
         self._rest = 0  # us that are no whole ms yet
         self.restart(True)

@@ -66,15 +66,20 @@ class Child:
     def ask(self, request: str) -> str:
         """The answer to a request, without `ok`. Raises EngineError where the child reports an error, or ends."""
         stdin = self._process.stdin
-        assert stdin is not None
+        assert stdin and self._process.stdout
         data = memoryview(wire.frame(request))
         try:
             while data:
                 data = data[stdin.write(data) or 0 :]
             deadline = time.monotonic() + _PATIENCE_S
-            answer = self._read(int(self._read(wire.HEADER, deadline), 16), deadline).decode()
+            header = self._read(wire.HEADER, deadline)
+            answer = self._read(int(header, 16), deadline).decode()
         except (BrokenPipeError, EOFError):
             raise EngineError(self._why_ended()) from None
+        except ValueError:  # no header: MicroPython writes tracebacks where the answers go
+            self._process.kill()
+            said = (header + (self._process.stdout.read() or b"")).decode(errors="replace")
+            raise EngineError(f"MicroPython stopped serving: {said.strip()}") from None
         status, _, rest = answer.partition(" ")
         if status == "error":
             raise EngineError(f"MicroPython could not execute the program: {rest}")
