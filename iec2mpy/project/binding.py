@@ -49,7 +49,7 @@ def _row(channel: Channel, slot: int) -> tuple[object, ...]:
     """A row as the runtime's process image reads it."""
     c = channel
     rows: dict[str, tuple[object, ...]] = {
-        "din": ("din", slot, c.pin, None if c.pull == "none" else c.pull, c.invert),
+        "din": ("din", slot, c.pin, "" if c.pull == "none" else c.pull, c.invert),
         "dout": ("dout", slot, c.pin, c.invert, c.safe),
         "adc": ("adc", slot, c.pin, c.low, c.high),
         "pwm": ("pwm", slot, c.pin, c.freq, c.low, c.high, c.safe),

@@ -1,19 +1,20 @@
-"""Durations in project files and options: a TIME literal, as in a program (6.3.4, table 8)."""
+"""Durations in project files, case files and options: literals of TIME, as in a program (6.3.4, table 8)."""
 
 from __future__ import annotations
 
-import re
-from fractions import Fraction
-
-_UNITS = {"d": 86_400_000_000, "h": 3_600_000_000, "m": 60_000_000, "s": 1_000_000, "ms": 1_000, "us": 1}
-_DURATION = re.compile(r"(?:T|TIME)#((?:\d[\d_]*(?:\.\d+)?(?:d|h|ms|m|s|us)_?)+)", re.IGNORECASE)
-_PART = re.compile(r"(\d[\d_]*(?:\.\d+)?)(d|h|ms|m|s|us)", re.IGNORECASE)
+from iec2mpy.source.diagnostics import Diagnostics
+from iec2mpy.source.spans import SourceFile
+from iec2mpy.syntax import time_literals
 
 
 def parse_duration(text: str) -> int | None:
     """Microseconds of `T#10ms`, `T#1m30s`, `T#1.5s`; None for what is not a duration."""
-    match = _DURATION.fullmatch(text.strip())
-    if match is None:
+    text = text.strip()
+    prefix, separator, _ = text.partition("#")
+    if not separator or time_literals.PREFIXES.get(prefix.upper()) != "duration":
         return None
-    total = sum(Fraction(number.replace("_", "")) * _UNITS[unit.lower()] for number, unit in _PART.findall(match[1]))
-    return round(total)
+    diagnostics = Diagnostics()
+    token, end = time_literals.read(SourceFile("", text), 0, len(prefix) + 1, prefix, diagnostics)
+    if diagnostics.has_errors or end < len(text) or token.value is None:
+        return None
+    return int(token.value.value) // 1_000

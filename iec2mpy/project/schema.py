@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from iec2mpy.project.toml_text import TomlText
 from iec2mpy.source.diagnostics import Diagnostics
+from iec2mpy.source.suggest import suggest
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,9 +83,9 @@ def _fits(toml: TomlText, path: Sequence[str], key: Key, value: Any, diagnostics
 
 def suggestion(name: str, known: Sequence[str] | Mapping[str, Any], otherwise: str) -> str:
     """`Did you mean …?`, or all names that there are, after the words `otherwise`."""
-    close = difflib.get_close_matches(name.casefold(), list(known), n=1, cutoff=0.5)
+    close = suggest(name, known)
     if close:
-        return f"Did you mean `{close[0]}`?"
+        return f"Did you mean `{close}`?"
     return f"{otherwise} {', '.join(f'`{k}`' for k in known)}."
 
 

@@ -1,0 +1,25 @@
+"""The files of the runtime, compiled, as they stand on a board."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib.resources import files
+
+from iec2mpy.backends.mpy import compile_mpy
+from iec2mpy.device.deploy import Payload
+from mcu_runtime import manifest
+
+
+def payload(program: Mapping[str, bytes]) -> Payload:
+    """A program's files (`program.mpy` or `program.py`, `program.names`, `board.py`) with the runtime around them."""
+    folder = dict(program)
+    folder |= {f"mcu_runtime/{module}.mpy": _compiled(module, f"mcu_runtime/{module}.py") for module in manifest.PACKAGE}
+    folder |= {f"{module}.mpy": _compiled(module, f"{module}.py") for module in manifest.FOLDER}
+    root = {f"{name}.mpy": _compiled(module, f"{name}.py") for module, name in manifest.ROOT.items()}
+    return Payload(folder, root, manifest.MAIN)
+
+
+def _compiled(module: str, shown_as: str) -> bytes:
+    """Bytecode, which every architecture runs."""
+    source = (files("mcu_runtime") / f"{module}.py").read_text(encoding="utf-8")
+    return compile_mpy(source, shown_as, architecture=None)
