@@ -57,9 +57,10 @@ class Controller:
         self._program = program
         self._io = io
         self._clock = clock
-        tasks = [Task(*task) for task in program.TASKS]
-        self.tasks = sorted(tasks, key=lambda task: task.priority)  # stable: then as declared
-        self.period = min([task.interval for task in tasks]) if tasks else DEFAULT_PERIOD_US
+        self.tasks = []
+        for task in program.TASKS:
+            self._insert(Task(*task))
+        self.period = min([task.interval for task in self.tasks]) if self.tasks else DEFAULT_PERIOD_US
         self._untimed = Task("", self.period, 0, program.UNTIMED) if program.UNTIMED else None
         self._all = list(self.tasks)
         if self._untimed:
@@ -67,6 +68,13 @@ class Controller:
         self._now = 0  # ms, as in slot NOW
         self._rest = 0  # us that are no whole ms yet
         self.restart(True)
+
+    def _insert(self, task):
+        """By priority, then as declared. MicroPython's `sorted` keeps no order among equals."""
+        at = len(self.tasks)
+        while at and self.tasks[at - 1].priority > task.priority:
+            at -= 1
+        self.tasks.insert(at, task)
 
     def restart(self, cold):
         """Every variable gets its initial value, and the tasks are due at once. Warm: RETAIN variables keep theirs, and

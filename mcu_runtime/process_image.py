@@ -3,7 +3,7 @@
 `board.py` of a deployed folder holds the table, one tuple a channel:
 
     CHANNELS = (
-        ("din", slot, pin, pull, invert),             # pull: "up", "down" or ""
+        ("din", slot, pin, pull, invert),             # pull: "up", "down" or None
         ("dout", slot, pin, invert, safe),            # safe: 0 or 1, as the program sees it
         ("adc", slot, pin, low, high),                # what the lowest and the highest voltage mean
         ("pwm", slot, pin, freq, low, high, safe),    # low: always off, high: always on
@@ -77,7 +77,8 @@ class PwmOutput:
         self._put(self._duty(self._safe))
 
 
-_KINDS = {"din": DigitalInput, "dout": DigitalOutput, "adc": AnalogInput, "pwm": PwmOutput}
+_INPUTS = {"din": DigitalInput, "adc": AnalogInput}
+_OUTPUTS = {"dout": DigitalOutput, "pwm": PwmOutput}
 
 
 class ProcessImage:
@@ -85,9 +86,8 @@ class ProcessImage:
 
     def __init__(self, channels, machine):
         # Outputs first: a soft reset leaves pins as they were.
-        made = [_KINDS[c[0]](machine, *c[1:]) for c in sorted(channels, key=lambda c: c[0] not in ("dout", "pwm"))]
-        self._outputs = [channel for channel in made if hasattr(channel, "safe")]
-        self._inputs = [channel for channel in made if not hasattr(channel, "safe")]
+        self._outputs = [_OUTPUTS[c[0]](machine, *c[1:]) for c in channels if c[0] in _OUTPUTS]
+        self._inputs = [_INPUTS[c[0]](machine, *c[1:]) for c in channels if c[0] in _INPUTS]
 
     def read(self, V):
         for channel in self._inputs:

@@ -67,6 +67,7 @@ class Child:
         """The answer to a request, without `ok`. Raises EngineError where the child reports an error, or ends."""
         stdin = self._process.stdin
         assert stdin and self._process.stdout
+        header = b""
         data = memoryview(wire.frame(request))
         try:
             while data:

@@ -1,0 +1,102 @@
+import os
+
+from support import raises
+
+from mcu_runtime.names import Names
+
+FILE = "names_%d.txt" % id(os)
+TEXT = """=Colour	red:0	Green:2
+main.b	BOOL	V	8	0	1	
+main.n	INT	V	9	-32768	32767	
+main.level	INT (0..100)	V	10	0	100	
+main.u	UDINT	V	11	0	4294967295	
+main.c	Colour	V	12	0	2	
+main.x	REAL	O	1			
+main.s	STRING[5]	O	2			
+main.t	TIME	V	13	-2147483648	2147483647	
+main.a[]	INT	V	20	-32768	32767	1:3:1
+main.m[,].on	BOOL	V	30	0	1	0:1:6;-1:1:2
+main.text	STRING	O	3			
+@12	src/main.st	7	main
+@1	src/other.st	3	Valve
+"""
+
+
+def place(path):
+    with open(FILE, "w") as file:
+        file.write(TEXT)
+    try:
+        return Names(FILE).resolve(path)
+    finally:
+        os.remove(FILE)
+
+
+def test_paths():
+    found = place("Main.B")
+    assert (found.array, found.slot, found.type, found.low, found.high) == ("V", 8, "BOOL", 0, 1)
+    assert place("main.a[3]").slot == 22
+    assert place("main.m[1, 0].ON").slot == 38
+    assert (place("main.x").array, place("main.x").slot) == ("O", 1)
+
+
+def test_unknown_names():
+    assert "main.zz" in str(raises(KeyError, place, "main.zz"))
+    assert "1..3" in str(raises(KeyError, place, "main.a[4]"))
+    raises(KeyError, place, "main.a")
+    raises(KeyError, place, "main.a[1")
+    raises(KeyError, place, "main.a[x]")
+    raises(KeyError, place, "main.a[1,2]")
+    raises(KeyError, place, "main")
+
+
+def test_decode():
+    assert place("main.b").decode(1) is True
+    assert place("main.u").decode(-1) == 4294967295
+    assert place("main.n").decode(-1) == -1
+    assert place("main.c").decode(2) == "Green"
+    assert place("main.c").decode(1) == 1
+    assert place("main.x").decode(0.5) == 0.5
+
+
+def test_encode():
+    assert place("main.b").encode(True) == 1
+    assert place("main.b").encode(0) == 0
+    assert place("main.n").encode(-5) == -5
+    assert place("main.u").encode(4294967295) == -1
+    assert place("main.c").encode("green") == 2
+    assert place("main.x").encode(1) == 1.0
+    assert place("main.x").encode(0.1) == 0.10000000149011612
+    assert place("main.s").encode("abcde") == "abcde"
+    assert place("main.t").encode(1500) == 1500
+
+
+def test_encode_refuses():
+    assert "0 to 100" in str(raises(ValueError, place("main.level").encode, 101))
+    assert "red, Green" in str(raises(ValueError, place("main.c").encode, "blue"))
+    assert "5 characters" in str(raises(ValueError, place("main.s").encode, "abcdef"))
+    assert "254 characters" in str(raises(ValueError, place("main.text").encode, "x" * 255))
+    for path, value in (
+        ("main.b", 2),
+        ("main.b", "TRUE"),
+        ("main.n", True),
+        ("main.n", 1.5),
+        ("main.n", 40000),
+        ("main.u", -1),
+        ("main.c", 1),
+        ("main.x", "1"),
+        ("main.x", True),
+        ("main.s", 1),
+        ("main.t", "T#1s"),
+    ):
+        raises(ValueError, place(path).encode, value)
+
+
+def test_places():
+    with open(FILE, "w") as file:
+        file.write(TEXT)
+    names = Names(FILE)
+    assert names.place(12) == "src/main.st:7 (main)"
+    assert names.place(1) == "src/other.st:3 (Valve)"
+    assert names.place(2) == ""
+    assert names.place(0) == ""
+    os.remove(FILE)
