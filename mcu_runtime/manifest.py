@@ -10,6 +10,7 @@ PACKAGE = (
     "clock",
     "controller",
     "faults",
+    "memory",
     "names",
     "ports",
     "process_image",

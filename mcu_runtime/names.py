@@ -5,8 +5,6 @@ The file is read line by line when something is asked for, as a board has no roo
 
 from mcu_runtime.arithmetic import f32
 
-_DEFAULT_LENGTH = 254
-
 
 class Names:
     def __init__(self, path):
@@ -31,8 +29,7 @@ class Names:
         for member in enumeration[1:] if enumeration else ():
             name, number = member.split(":")
             members[name] = int(number)
-        limits = (int(low), int(high)) if array == "V" else (0, 0)
-        return Place(path, type_name, array, slot, limits[0], limits[1], members)
+        return Place(path, type_name, array, slot, int(low) if low else None, int(high) if high else None, members)
 
     def place(self, site):
         """Where a fault was raised: `main.st:12 (main)`; "" for site 0, and where the file does not say."""
@@ -54,7 +51,7 @@ _ELEMENTARY = ("BOOL", "SINT", "INT", "DINT", "USINT", "UINT", "UDINT", "BYTE", 
 
 class Place:
     """One variable. Values: BOOL bool, integers and bit strings int, TIME int (ms), REAL float, STRING str, an
-    enumeration the name of the value."""
+    enumeration the name of the value. `low` and `high`: of a STRING 0 and its capacity, of a REAL None."""
 
     def __init__(self, path, type_name, array, slot, low, high, members):
         self.path = path
@@ -98,13 +95,12 @@ class Place:
         return value - 0x100000000 if value > 0x7FFFFFFF else value
 
     def _object(self, value):
-        if not self.type.startswith("STRING"):
+        if self.high is None:
             if isinstance(value, bool) or not isinstance(value, (int, float)):
                 raise ValueError("%s is a %s: a number" % (self.path, self.type))
             return f32(float(value))
-        length = int(self.type[7:-1]) if "[" in self.type else _DEFAULT_LENGTH
-        if not isinstance(value, str) or len(value) > length:
-            raise ValueError("%s is a %s: a text of at most %d characters" % (self.path, self.type, length))
+        if not isinstance(value, str) or len(value) > self.high:
+            raise ValueError("%s is a %s: a text of at most %d characters" % (self.path, self.type, self.high))
         return value
 
 

@@ -24,7 +24,7 @@ def run(name):
                 import traceback
 
                 traceback.print_exc()
-            print("%s\t%s: %s" % (function, type(error).__name__, error))
+            print(f"{function}\t{type(error).__name__}: {error}")
 
 
 run(sys.argv[3])

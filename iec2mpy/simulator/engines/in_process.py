@@ -10,12 +10,17 @@ from typing import Any
 from iec2mpy.simulator.engines.base import EngineError, Place, Stored
 from iec2mpy.simulator.engines.simulated import Simulated
 
+Load = Callable[[str], dict[str, Any]]
+"""From a program's text to its names."""
+
 
 class InProcessEngine:
     """`base.Engine` for a program in this process."""
 
-    def __init__(self, name: str, load: Callable[[str], dict[str, Any]], text: str) -> None:
+    def __init__(self, name: str, load: Load, text: str, *failures: type[BaseException]) -> None:
+        """`failures`: what the program's execution may raise that is no `Exception`."""
         self._name = name
+        self._failures = (Exception, *failures)
         self._simulated = self._guarded("load", lambda: Simulated(load(text)))
 
     @property
@@ -40,7 +45,7 @@ class InProcessEngine:
     def _guarded(self, doing: str, call: Callable[[], Any]) -> Any:
         try:
             return call()
-        except Exception as error:
+        except self._failures as error:
             raise EngineError(f"the engine {self._name} could not {doing} the program: {error}") from error
 
 
@@ -51,9 +56,9 @@ def start_cpython(text: str) -> InProcessEngine:
 
 def start_viper32(text: str) -> InProcessEngine:
     """A program in the viper form for boards, interpreted."""
-    from iec2mpy.simulator.viper32 import load
+    from iec2mpy.simulator.viper32 import ViperFault, load
 
-    return InProcessEngine("viper32", lambda program: load(program, "program.py"), text)
+    return InProcessEngine("viper32", lambda program: load(program, "program.py"), text, ViperFault)
 
 
 def _executed(text: str) -> dict[str, Any]:

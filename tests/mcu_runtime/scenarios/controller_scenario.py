@@ -98,7 +98,7 @@ def test_warm_restart_keeps_retain_and_the_clock():
 
 
 def faulting(error, site):
-    controller, program, io, clock = build([("main", 10_000, 1)])
+    controller, program, io, _ = build([("main", 10_000, 1)])
 
     def run():
         program.V[8] += 1
@@ -121,11 +121,11 @@ def test_a_fault_stops_with_outputs_safe():
 
 
 def test_what_is_no_fault_stops_too():
-    controller, _, io = faulting(TypeError("bad"), 3)
+    controller, _, _ = faulting(TypeError("bad"), 3)
     controller.scan()
     assert controller.fault == ("internal", 3)
     assert controller.detail == "TypeError: bad"
-    controller, _, io = faulting(MemoryError("full"), 0)
+    controller, _, _ = faulting(MemoryError("full"), 0)
     controller.scan()
     assert controller.fault == ("memory", 0)
 
@@ -187,7 +187,7 @@ def test_poll_runs_what_is_due():
 
 
 def test_deadlines_do_not_drift():
-    controller, program, _, clock = build([("main", 10_000, 1)])
+    controller, _, _, clock = build([("main", 10_000, 1)])
     controller.resume()
     controller.poll()
     for late in (300, 900, 100, 500):

@@ -6,8 +6,6 @@ class Pin:
     OUT = 1
     PULL_UP = 2
     PULL_DOWN = 3
-    levels = {}
-    log = []
     broken = ()
 
     def __init__(self, pin, mode=None, pull=None, value=None):
@@ -41,8 +39,6 @@ class ADC:
 
 
 class PWM:
-    log = []
-
     def __init__(self, pin, freq=0, duty_u16=0):
         PWM.log.append((pin.pin, freq, duty_u16))
 
@@ -70,9 +66,12 @@ class Timer:
 
 
 def reset():
-    Pin.levels.clear()
-    Pin.log.clear()
+    Pin.levels = {}
+    Pin.log = []
     Pin.broken = ()
-    PWM.log.clear()
+    PWM.log = []
     ADC.raw = 0
     Timer.running = None
+
+
+reset()

@@ -4,22 +4,22 @@ from support import raises
 
 from mcu_runtime.names import Names
 
-FILE = "names_%d.txt" % id(os)
-TEXT = """=Colour	red:0	Green:2
-main.b	BOOL	V	8	0	1	
-main.n	INT	V	9	-32768	32767	
-main.level	INT (0..100)	V	10	0	100	
-main.u	UDINT	V	11	0	4294967295	
-main.c	Colour	V	12	0	2	
-main.x	REAL	O	1			
-main.s	STRING[5]	O	2			
-main.t	TIME	V	13	-2147483648	2147483647	
-main.a[]	INT	V	20	-32768	32767	1:3:1
-main.m[,].on	BOOL	V	30	0	1	0:1:6;-1:1:2
-main.text	STRING	O	3			
-@12	src/main.st	7	main
-@1	src/other.st	3	Valve
-"""
+FILE = f"names_{id(os)}.txt"
+TEXT = """=Colour|red:0|Green:2
+main.b|BOOL|V|8|0|1|
+main.n|INT|V|9|-32768|32767|
+main.level|INT (0..100)|V|10|0|100|
+main.u|UDINT|V|11|0|4294967295|
+main.c|Colour|V|12|0|2|
+main.x|REAL|O|1|||
+main.s|STRING[5]|O|2|0|5|
+main.t|TIME|V|13|-2147483648|2147483647|
+main.a[]|INT|V|20|-32768|32767|1:3:1
+main.m[,].on|BOOL|V|30|0|1|0:1:6;-1:1:2
+main.text|Text|O|3|0|254|
+@12|src/main.st|7|main
+@1|src/other.st|3|Valve
+""".replace("|", "\t")
 
 
 def place(path):

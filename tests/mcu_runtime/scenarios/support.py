@@ -9,7 +9,7 @@ def raises(expected, function, *arguments):
         if error is expected or (isinstance(expected, type) and isinstance(error, expected)):
             return error
         raise
-    raise AssertionError("nothing raised, but %r returned" % (result,))
+    raise AssertionError(f"nothing raised, but {result!r} returned")
 
 
 class Program:
