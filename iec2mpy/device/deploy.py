@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import zlib
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,7 +26,7 @@ from iec2mpy.device.errors import (
 from iec2mpy.device.inspect import BoardState, check_fits, survey
 from iec2mpy.device.transport import Link, full_board
 
-_START_TIMEOUT = 20.0  # seconds for `main.py`: loading a large program takes a few
+_START_TIMEOUT = 20  # seconds for `main.py`: loading a large program takes a few
 _MAIN_MARK = "plc_boot"  # who starts the PLC from a main.py of their own has this in it
 _ACTIVE = "active"
 
@@ -175,7 +176,7 @@ def _replace(link: Link, name: str, data: bytes) -> None:
 
 
 def _start(link: Link, folder: str, before: str) -> Mapping[str, Any]:
-    """Soft reset, and a look at what runs then. The program before it is started again if the new one is not running."""
+    """Soft reset, and a look at what runs. The program before it is started again if the new one does not run."""
     status = _restart(link, folder)
     if status.get("running"):
         return status
@@ -206,7 +207,5 @@ def _restart(link: Link, folder: str) -> Mapping[str, Any]:
 
 def _remove_quietly(link: Link, folder: str) -> None:
     """Removes what is in nobody's way: the next deployment does it otherwise."""
-    try:
+    with suppress(DeviceError):
         link.remove(folder)
-    except DeviceError:
-        pass

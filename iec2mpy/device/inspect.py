@@ -11,7 +11,10 @@ from iec2mpy.device.transport import Link
 OLDEST_RELEASE = (1, 23)
 """The first release of MicroPython that takes `.mpy` files of version 6.3."""
 
-_UPDATE = "Flash MicroPython {0}.{1} or later, from micropython.org; `iec2mpy boards NAME` says how.".format(*OLDEST_RELEASE)
+_UPDATE = (
+    f"Flash MicroPython {OLDEST_RELEASE[0]}.{OLDEST_RELEASE[1]} or later, from micropython.org; "
+    "`iec2mpy boards NAME` says how."
+)
 
 # The numbers in sys.implementation._mpy and in the third byte of a file: "MicroPython .mpy files" in its documentation
 _ARCHITECTURES = (
@@ -105,8 +108,9 @@ def _check_file(name: str, data: bytes, board: BoardState, release: str) -> None
         raise WrongRelease(f"{message}{there[0]}.{there[1]}, not {wanted[0]}.{wanted[1]}.", hint)
     same_family = architecture in _THUMB and board_arch in _THUMB and architecture <= board_arch
     if architecture and architecture != board_arch and not same_family:
-        message = f"{name} is built for {_architecture(architecture)}, but {board.machine} runs {_architecture(board_arch)}."
-        hint = "Name the right board in iec2mpy.toml. With `emitter = \"portable\"` a program runs on every board, slowly."
+        there_runs = f"{board.machine} runs {_architecture(board_arch)}"
+        message = f"{name} is built for {_architecture(architecture)}, but {there_runs}."
+        hint = 'Name the right board in iec2mpy.toml. With `emitter = "portable"` it runs everywhere, but slowly.'
         raise WrongChip(message, hint)
 
 

@@ -13,13 +13,15 @@ from mcu_runtime import manifest
 def payload(program: Mapping[str, bytes]) -> Payload:
     """A program's files (`program.mpy` or `program.py`, `program.names`, `board.py`) with the runtime around them."""
     folder = dict(program)
-    folder |= {f"mcu_runtime/{module}.mpy": _compiled(module, f"mcu_runtime/{module}.py") for module in manifest.PACKAGE}
-    folder |= {f"{module}.mpy": _compiled(module, f"{module}.py") for module in manifest.FOLDER}
-    root = {f"{name}.mpy": _compiled(module, f"{name}.py") for module, name in manifest.ROOT.items()}
+    for module in manifest.PACKAGE:
+        folder[f"mcu_runtime/{module}.mpy"] = _compiled(module, f"mcu_runtime/{module}")
+    for module in manifest.FOLDER:
+        folder[f"{module}.mpy"] = _compiled(module, module)
+    root = {f"{name}.mpy": _compiled(module, name) for module, name in manifest.ROOT.items()}
     return Payload(folder, root, manifest.MAIN)
 
 
-def _compiled(module: str, shown_as: str) -> bytes:
+def _compiled(module: str, name_there: str) -> bytes:
     """Bytecode, which every architecture runs."""
     source = (files("mcu_runtime") / f"{module}.py").read_text(encoding="utf-8")
-    return compile_mpy(source, shown_as, architecture=None)
+    return compile_mpy(source, f"{name_there}.py", architecture=None)

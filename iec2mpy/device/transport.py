@@ -30,8 +30,8 @@ from iec2mpy.device.errors import (
 
 _RAW_REPL = b"raw REPL; CTRL-B to exit\r\n"
 _PROMPT = b">>> "
-_ANSWER_TIMEOUT = 5.0  # seconds until a board has to answer to Ctrl-A
-_READ_TIMEOUT = 10.0  # seconds that a byte may be late: a board's flash can be busy for some of them
+_ANSWER_TIMEOUT = 5  # seconds until a board has to answer to Ctrl-A
+_READ_TIMEOUT = 10  # seconds that a byte may be late: a board's flash can be busy for some of them
 _BLOCK = 384  # bytes of a file that are sent at once: 512 characters of base64
 
 # Said on the board. `f` and the other names live in the REPL's globals, which the soft reset at the end clears.
@@ -117,7 +117,7 @@ class Link:
         """Removes a file or a whole folder, if there is one."""
         self.run(_REMOVE_TREE.format(path=path))
 
-    def restart(self, timeout: float) -> None:
+    def restart(self, timeout: int) -> None:
         """Soft reset: `main.py` runs. Returns in the raw REPL again, when the prompt has come.
 
         From the raw REPL, MicroPython would not run `main.py`; and Ctrl-C before the prompt would end it.
@@ -131,13 +131,14 @@ class Link:
 
     def leave(self) -> None:
         """Back to the friendly REPL, and closes the port."""
+        serial_port: Any = self._transport.serial
         try:
             self._transport.exit_raw_repl()
             self._transport.close()
         except OSError:
-            pass  # the line is gone, and so is what had to be closed
+            serial_port.close()  # the line is gone, but the port is still open here
 
-    def _await_prompt(self, timeout: float) -> None:
+    def _await_prompt(self, timeout: int) -> None:
         text = self._transport.read_until(1, _PROMPT, timeout=timeout, timeout_overall=timeout)
         if not text.endswith(_PROMPT):
             raise NoAnswer(f"The board on {self.port} does not come back to its prompt.", _POWER_CYCLE)
@@ -222,9 +223,9 @@ def _enter_raw_repl(transport: SerialTransport, port: str) -> None:
 
     Ctrl-C ends what the REPL executes, but not a PLC that a timer runs.
     """
-    line = transport.serial
+    line: Any = transport.serial
     line.timeout = 0.2  # read_until waits as long for one byte, however short its own time is
-    line.write(b"\r\x03\x03")
+    line.write(b"\r\x03")
     time.sleep(0.1)
     heard = line.read(line.in_waiting)
     line.write(b"\r\x01")

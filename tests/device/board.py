@@ -12,6 +12,7 @@ import pty
 import select
 import shutil
 import subprocess
+import sys
 import termios
 import threading
 import tty
@@ -19,6 +20,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 _BOOT = "import os\ntry:\n os.stat('main.py')\n m=1\nexcept OSError:\n m=0\nif m:\n exec(open('main.py').read())\n"
+
+# Takes the terminal as its own, so that Ctrl-C there is a signal, and becomes MicroPython.
+_LAUNCH = "import fcntl,os,sys,termios; fcntl.ioctl(0,termios.TIOCSCTTY,0); os.execv(sys.argv[1],sys.argv[1:])"
 
 
 class Board:
@@ -33,11 +37,15 @@ class Board:
         self.starts = 0
         self.on_bytes: Callable[[int], None] = lambda count: None
         self._boot = boot + _BOOT
+        self._sent = 0
+        self._ended = threading.Event()
+        self._plug_in()
+
+    def _plug_in(self) -> None:
         self._host, self._host_slave = pty.openpty()
         tty.setraw(self._host_slave)
         self.port = os.ttyname(self._host_slave)
-        self._sent = 0
-        self._ended = threading.Event()
+        self._ended.clear()
         self._start()
         self._thread = threading.Thread(target=self._bridge, daemon=True)
         self._thread.start()
@@ -51,13 +59,12 @@ class Board:
         modes[3] |= termios.ISIG  # Ctrl-C interrupts what runs
         termios.tcsetattr(slave, termios.TCSANOW, modes)
         self._process = subprocess.Popen(
-            [program, "-i", "-c", self._boot],
+            [sys.executable, "-c", _LAUNCH, program, "-i", "-c", self._boot],
             cwd=self.files,
             stdin=slave,
             stdout=slave,
             stderr=slave,
             start_new_session=True,
-            preexec_fn=lambda: _take_terminal(),
         )
         os.close(slave)
         self.starts += 1
@@ -93,14 +100,15 @@ class Board:
         os.close(self._host_slave)
         os.close(self._host)
 
+    def power_cycle(self) -> None:
+        """Off and on again: what is in the file system is all that stays. The port may have another name then."""
+        self.close()
+        self.on_bytes = lambda count: None
+        self._plug_in()
+
     def close(self) -> None:
         if not self._ended.is_set():
             self.unplug()
         self._process.kill()
         self._process.wait()
-
-
-def _take_terminal() -> None:
-    import fcntl
-
-    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+        self._thread.join()
