@@ -6,7 +6,6 @@ import ast
 
 from iec2mpy.simulator.viper32.code import assign, assign_all, call, constant, is_simple, name, store, subscript
 from iec2mpy.simulator.viper32.expressions import (
-    an_object,
     checked_index,
     converted,
     count,
@@ -14,12 +13,12 @@ from iec2mpy.simulator.viper32.expressions import (
     expression,
     load_element,
     object_index,
-    object_of,
     operation,
 )
+from iec2mpy.simulator.viper32.folding import truth
 from iec2mpy.simulator.viper32.native import retype
 from iec2mpy.simulator.viper32.scope import Scope, refuse
-from iec2mpy.simulator.viper32.values import NATIVE, NUMBERS, WIDTHS, Kind, Value
+from iec2mpy.simulator.viper32.values import NUMBERS, WIDTHS, Kind, Value, an_object
 
 _Code = list[ast.stmt]
 _STORED = NUMBERS | {Kind.BOOL}
@@ -56,9 +55,7 @@ def augmented_assignment(node: ast.AugAssign, scope: Scope) -> _Code:
         return _assign(target, result, scope)
     base, code = _simplified(expression(target.value, scope), scope)
     if isinstance(target, ast.Attribute):
-        if base.kind is not Kind.OBJECT:
-            refuse(f"an attribute of '{base.kind.shown}'", target)
-        loaded = an_object(ast.Attribute(base.code, target.attr, ast.Load()))
+        loaded = an_object(ast.Attribute(_with_attributes(base, target), target.attr, ast.Load()))
         result = operation(node.op, loaded, expression(node.value, scope), scope, inplace=True)
         return [*code, _store_attribute(base.code, target.attr, converted(result, target))]
     if base.kind is Kind.OBJECT:
@@ -78,8 +75,7 @@ def assign_local(identifier: str, value: Value, scope: Scope) -> _Code:
     if kind is Kind.UNBOUND:
         kind = scope.kinds[identifier] = value.kind
     elif kind is not value.kind:
-        shown = f"local '{identifier}' has type '{kind.shown}' but source is '{value.kind.shown}'"
-        scope.report(shown)
+        scope.report(f"local '{identifier}' has type '{kind.shown}' but source is '{value.kind.shown}'")
     if kind in WIDTHS:
         view = call("$view", value.code, constant(WIDTHS[kind]))
         return [assign_all([identifier, elements(identifier), count(identifier)], view)]
@@ -92,13 +88,22 @@ def assign_object(target: ast.expr, code: ast.expr, scope: Scope) -> _Code:
 
 
 def _is_pairwise(target: ast.expr, value: ast.expr) -> bool:
-    """`a, b = c, d` makes no tuple, for two and for three."""
+    """`a, b = c, d` makes no tuple, for two and for three; a tuple of constants is one object."""
     return (
         isinstance(target, ast.Tuple)
         and isinstance(value, ast.Tuple)
         and len(target.elts) == len(value.elts) in (2, 3)
         and not any(isinstance(item, ast.Starred) for item in (*target.elts, *value.elts))
+        and not _has_parentheses(target)
+        and not _has_parentheses(value)
+        and truth(value) is None
     )
+
+
+def _has_parentheses(node: ast.Tuple) -> bool:
+    first, last = node.elts[0], node.elts[-1]
+    starts_before = (node.lineno, node.col_offset) < (first.lineno, first.col_offset)
+    return starts_before and (node.end_lineno, node.end_col_offset) > (last.end_lineno, last.end_col_offset)
 
 
 def _kept(value: Value, scope: Scope) -> tuple[Value, _Code]:
@@ -127,16 +132,16 @@ def _assign(target: ast.expr, value: Value, scope: Scope) -> _Code:
             return assign_local(target.id, value, scope)
         return [assign(target.id, converted(value, target))]
     if isinstance(target, ast.Attribute):
-        base = object_of(target.value, scope)
-        return [_store_attribute(base, target.attr, converted(value, target))]
+        base = expression(target.value, scope)
+        return [_store_attribute(_with_attributes(base, target), target.attr, converted(value, target))]
     if isinstance(target, ast.Subscript):
         base = expression(target.value, scope)
         if base.kind is Kind.OBJECT:
             return [store(base.code, object_index(target.slice, scope), converted(value, target))]
         return _store_element(base, expression(target.slice, scope), value, scope)
-    if isinstance(target, ast.Tuple | ast.List):
-        return _unpack(target, value, scope)
-    refuse(f"an assignment to {type(target).__name__}", target)
+    if not isinstance(target, ast.Tuple | ast.List):
+        refuse(f"an assignment to {type(target).__name__}", target)
+    return _unpack(target, value, scope)
 
 
 def _unpack(target: ast.Tuple | ast.List, value: Value, scope: Scope) -> _Code:
@@ -147,6 +152,12 @@ def _unpack(target: ast.Tuple | ast.List, value: Value, scope: Scope) -> _Code:
     for item, temporary in zip(target.elts, temporaries, strict=True):
         code += assign_object(item, name(temporary), scope)
     return code
+
+
+def _with_attributes(base: Value, node: ast.Attribute) -> ast.expr:
+    if base.kind is not Kind.OBJECT:
+        refuse(f"an attribute of '{base.kind.shown}'", node)
+    return base.code
 
 
 def _store_attribute(base: ast.expr, attribute: str, value: ast.expr) -> ast.stmt:
@@ -168,7 +179,7 @@ def _store_element(base: Value, index: Value, value: Value, scope: Scope) -> _Co
     code: _Code = []
     if not is_simple(element.code):
         element, code = _kept(element, scope)
-    if not (isinstance(base.code, ast.Name) and base.kind in NATIVE):
+    if not (isinstance(base.code, ast.Name) and base.in_local):
         arguments = (base.code, index.code, constant(width), element.code)
         return [*code, ast.Expr(call("$store", *arguments))]
     at, inside = checked_index(base.code.id, index, scope)

@@ -8,8 +8,11 @@ _PACKAGE = __name__.rpartition(".")[0]
 
 
 class ViperError(Exception):
-    """The compiler refuses the text. `message` is MicroPython's own sentence with its kind of error before it, or one of
-    ours, which starts with `viper32:`; `line` counts from 1."""
+    """The compiler refuses the text.
+
+    `message` is MicroPython's own sentence with its kind of error before it, or one of ours, which starts with
+    `viper32:`; `line` counts from 1.
+    """
 
     def __init__(self, message: str, line: int) -> None:
         super().__init__(f"{message} (line {line})")

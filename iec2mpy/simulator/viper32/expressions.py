@@ -50,10 +50,8 @@ def object_of(node: ast.expr, scope: Scope) -> ast.expr:
 
 
 def converted(value: Value, node: ast.expr) -> ast.expr:
-    if value.kind in POINTERS and value.immediate is not None:
+    if value.kind is Kind.CAST or (value.kind in POINTERS and value.immediate is not None):
         raise ViperError("NotImplementedError: conversion to object", node.lineno)
-    if value.kind is Kind.CAST:
-        refuse("a type used as a value", node)
     result = to_object(value)
     place(result, node)
     return result
@@ -106,6 +104,8 @@ def _name(node: ast.Name, scope: Scope) -> Value:
     if kind is None:
         cast = CASTS.get(node.id)
         return Value(Kind.CAST, constant(None), cast=cast) if cast else an_object(name(node.id))
+    if kind is Kind.CAST:
+        refuse("a type used as a value", node)
     if kind is Kind.UNBOUND:
         scope.report(f"local '{node.id}' used before type known")
     return native(kind, name(node.id), in_local=True) if kind in NATIVE else Value(kind, name(node.id))
@@ -297,7 +297,7 @@ def checked_index(pointer: str, index: Value, scope: Scope) -> tuple[ast.expr, a
 
 def _sequence(node: ast.Tuple | ast.List, scope: Scope) -> Value:
     if any(isinstance(item, ast.Starred) for item in node.elts):
-        refuse("a * in a list or tuple", node)
+        raise ViperError("SyntaxError: *x must be assignment target", node.lineno)
     return an_object(type(node)([object_of(item, scope) for item in node.elts], ast.Load()))
 
 

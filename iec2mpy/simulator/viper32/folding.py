@@ -1,8 +1,8 @@
 """What MicroPython's parser works out before viper's compiler sees the text.
 
 It puts in the values of `X = const(…)`, folds operations on numbers (never a part of a chain: in `1 + 2 + x` nothing is
-folded, in `(1 + 2) + x` a sum is), and drops operands of `and` and `or` that are decided. Code under a condition that is
-constant is not compiled at all, so what it assigns is no local.
+folded, in `(1 + 2) + x` a sum is), and drops operands of `and` and `or` that are decided. Code under a condition that
+is constant is not compiled at all, so what it assigns is no local.
 """
 
 from __future__ import annotations
@@ -62,6 +62,13 @@ def _is_number(node: ast.expr) -> bool:
     return isinstance(node, ast.Constant) and type(node.value) in (int, float)
 
 
+def _const_argument(node: ast.expr) -> ast.expr | None:
+    """`x` of `const(x)`."""
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "const" and not node.keywords:
+        return node.args[0] if len(node.args) == 1 else None
+    return None
+
+
 def _starts_with(node: ast.BinOp, left: ast.expr) -> bool:
     """Whether no parenthesis stands before `left`."""
     return (node.lineno, node.col_offset) == (left.lineno, left.col_offset)
@@ -91,19 +98,18 @@ class _Folder(ast.NodeTransformer):
         return ast.copy_location(copy.deepcopy(known), node)
 
     def visit_Assign(self, node: ast.Assign) -> ast.stmt:
-        value = node.value
-        is_const = isinstance(value, ast.Call) and isinstance(value.func, ast.Name) and value.func.id == "const"
-        if not (is_const and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name)):
-            return self._visited(node)
         target = node.targets[0]
-        argument = self.visit(value.args[0]) if len(value.args) == 1 and not value.keywords else value
-        if not (isinstance(argument, ast.Constant) or (isinstance(argument, ast.Tuple) and truth(argument) is not None)):
+        argument = _const_argument(node.value)
+        if argument is None or len(node.targets) > 1 or not isinstance(target, ast.Name):
+            return self._visited(node)
+        value = self.visit(argument)
+        if not isinstance(value, ast.Constant | ast.Tuple) or truth(value) is None:
             raise ViperError("SyntaxError: not a constant", node.lineno)
         self.visit(target)
-        self._constants[target.id] = argument
+        self._constants[target.id] = value
         if target.id.startswith("_"):
             return ast.copy_location(ast.Pass(), node)
-        node.value = argument
+        node.value = value
         return node
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.expr:

@@ -14,12 +14,11 @@ from iec2mpy.simulator.viper32.assignments import (
 )
 from iec2mpy.simulator.viper32.code import assign, call, constant, name, place
 from iec2mpy.simulator.viper32.errors import ViperError
-from iec2mpy.simulator.viper32.expressions import condition, expression, from_object, object_of
+from iec2mpy.simulator.viper32.expressions import condition, expression, from_object, object_of, operation
 from iec2mpy.simulator.viper32.folding import truth
-from iec2mpy.simulator.viper32.native import comparison, retype, to_object
-from iec2mpy.simulator.viper32.expressions import operation
+from iec2mpy.simulator.viper32.native import comparison, mismatch, to_object
 from iec2mpy.simulator.viper32.scope import Scope, local_names, refuse
-from iec2mpy.simulator.viper32.values import KINDS_BY_NAME, NUMBERS, Kind, Value, an_object, immediate
+from iec2mpy.simulator.viper32.values import KINDS_BY_NAME, Kind, Value, an_object, immediate
 
 _Code = list[ast.stmt]
 
@@ -29,7 +28,7 @@ def translate_function(node: ast.FunctionDef, viper_functions: frozenset[str]) -
     arguments = node.args
     if arguments.vararg or arguments.kwarg or arguments.defaults or arguments.kwonlyargs or arguments.posonlyargs:
         refuse(f"{node.name}() has parameters that are optional, or marked by / or *", node)
-    kinds = {name: Kind.UNBOUND for name in local_names(node.body)}
+    kinds = dict.fromkeys(local_names(node.body), Kind.UNBOUND)
     for parameter in arguments.args:
         kinds[parameter.arg] = _declared(parameter.annotation, node)
     parameters = {parameter.arg: kinds[parameter.arg] for parameter in arguments.args}
@@ -224,20 +223,18 @@ def _try(node: ast.Try, scope: Scope) -> _Code:
 
 
 def _handler(node: ast.ExceptHandler, scope: Scope) -> ast.ExceptHandler:
-    kind: ast.expr = name("BaseException")
+    caught: ast.expr = name("Exception")  # not the model's own faults
     if node.type is not None:
         value = expression(node.type, scope)
         if value.kind is not Kind.OBJECT:
-            scope.report(f"can't do binary op between 'object' and '{value.kind.shown}'")
-        kind = value.code
-    else:
-        kind = name("Exception")  # not the model's own faults
+            mismatch(an_object(value.code), value, scope)
+        caught = value.code
     if node.name is not None:
         assign_local(node.name, an_object(constant(None)), scope)
     body = _suite(node.body, scope)
     if node.name is not None:  # MicroPython stores None in the local at the end, which has another type
         assign_local(node.name, Value(Kind.NONE, constant(None)), scope)
-    result = ast.ExceptHandler(kind, None, body)
+    result = ast.ExceptHandler(caught, None, body)
     place(result, node)
     return result
 

@@ -49,6 +49,6 @@ def _import_module(name: str, *details: Any) -> ModuleType:
     """`import` of a loaded module: it sees the runtime, `array` and `micropython`, and nothing else."""
     if name == "micropython":
         return _MICROPYTHON
-    if name == "array" or name.split(".")[0] == _RUNTIME:
+    if name == "array" or f"{name}.".startswith(f"{_RUNTIME}."):
         return builtins.__import__(name, *details)
     raise ImportError(f"no module named '{name}'")

@@ -102,20 +102,20 @@ def _count(low: int, high: int, end: int, start: int, step: int) -> Iterable[int
     return _wrapping(start, end, step, low, high)
 
 
-_BUILTINS = (
-    "__build_class__ abs all any bin bool bytearray bytes callable chr classmethod complex delattr dict dir divmod "
-    "enumerate eval filter float frozenset getattr globals hasattr hash hex id input int isinstance issubclass iter len "
-    "list locals map max memoryview min next object oct ord pow print property range repr reversed round set setattr "
-    "slice sorted staticmethod str sum super tuple type zip Ellipsis NotImplemented ArithmeticError AssertionError "
-    "AttributeError BaseException EOFError Exception GeneratorExit ImportError IndentationError IndexError KeyError "
-    "KeyboardInterrupt LookupError MemoryError NameError NotImplementedError OSError OverflowError RuntimeError "
-    "StopIteration SyntaxError SystemExit TypeError UnicodeError ValueError ZeroDivisionError"
-).split()
+_BUILTINS = """
+    __build_class__ abs all any bin bool bytearray bytes callable chr classmethod complex delattr dict dir divmod
+    enumerate filter float frozenset getattr globals hasattr hash hex id int isinstance issubclass iter len list
+    locals map max memoryview min next object oct ord pow print property range repr reversed round set setattr slice
+    sorted staticmethod str sum super tuple type zip Ellipsis NotImplemented ArithmeticError AssertionError
+    AttributeError BaseException EOFError Exception GeneratorExit ImportError IndentationError IndexError KeyError
+    KeyboardInterrupt LookupError MemoryError NameError NotImplementedError OSError OverflowError RuntimeError
+    StopIteration SyntaxError SystemExit TypeError UnicodeError ValueError ZeroDivisionError
+"""
 
 
 def builtins_for(memory: Memory, import_module: Callable[..., Any]) -> dict[str, Any]:
-    """The built-in names of a module: MicroPython's, and what translated code calls, under names that no text can have."""
-    names: dict[str, Any] = {name: getattr(builtins, name) for name in _BUILTINS}
+    """The built-in names of a module: MicroPython's, and what translated code calls, by names that no text can have."""
+    names: dict[str, Any] = {name: getattr(builtins, name) for name in _BUILTINS.split()}
     names |= {
         "__import__": import_module,
         "UnboundLocalError": UnboundLocalError,

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from iec2mpy.simulator.viper32.errors import fault
 
 _FIRST = 0x20000000
 _GAP = 0x100000
 _WORD = 0xFFFFFFFF
-_FORMATS = {1: "B", 2: "H", 4: "i"}
+_FORMATS: dict[int, Literal["B", "H", "i"]] = {1: "B", 2: "H", 4: "i"}
 
 View = tuple[int, Any, int]
 """The address, what is indexed from it, and how many elements that has."""

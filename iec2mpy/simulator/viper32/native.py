@@ -57,7 +57,7 @@ def to_object(value: Value) -> ast.expr:
         return constant(None)
     if value.kind is Kind.BOOL:
         return value.code if isinstance(value.code, ast.Compare) else compare(value.code, (ast.NotEq(), constant(0)))
-    if SMALL_LOW <= value.low and value.high <= SMALL_HIGH:
+    if value.low >= SMALL_LOW and value.high <= SMALL_HIGH:
         return value.code
     return call("$object", value.code)
 
@@ -113,7 +113,7 @@ def _bitwise(operator: ast.operator, left: Value, right: Value, scope: Scope) ->
 
 def _shift(operator: ast.operator, left: Value, right: Value, scope: Scope) -> Value:
     count = right.code
-    if not (0 <= right.low and right.high <= 31):
+    if right.low < 0 or right.high > 31:
         if not is_simple(count):
             temporary = scope.fresh()
             count, tested = name(temporary), bind(temporary, count)
@@ -123,10 +123,11 @@ def _shift(operator: ast.operator, left: Value, right: Value, scope: Scope) -> V
         count = choose(valid, count, call("$shift", count))
     least, most = max(0, min(right.low, 31)), max(0, min(right.high, 31))
     if isinstance(operator, ast.RShift):
-        shifted = binary(left.code, operator, count)
-        return Value(left.kind, shifted, min(left.low >> least, left.low >> most), max(left.high >> least, left.high >> most))
+        lowest, highest = min(left.low >> least, left.low >> most), max(left.high >> least, left.high >> most)
+        return Value(left.kind, binary(left.code, operator, count), lowest, highest)
     range_ = (min(left.low << least, left.low << most), max(left.high << least, left.high << most))
-    return _fitting(left.kind, binary(left.code, operator, count), binary(left.low_bits, operator, count), range_, scope)
+    exact, bits = binary(left.code, operator, count), binary(left.low_bits, operator, count)
+    return _fitting(left.kind, exact, bits, range_, scope)
 
 
 def _division(operator: ast.operator, left: Value, right: Value, scope: Scope) -> Value:
