@@ -1,16 +1,18 @@
 """The map of the memory image: which slot holds which variable, and how values look from outside.
 
-Written as `program.map.json` beside the program. A variable is a leaf: one value, or all the elements of arrays that
-are alike, with subscripts left open (`main.a[].x`). What is asked for may be more than a leaf: `main.a` gives a list.
+Written as `program.map.json` beside the program. A variable in it is a leaf: one value, or all the elements of arrays
+that are alike, with subscripts left open (`main.a[].x`). What is asked for may be more than a leaf: `main.a` is a list,
+`main.a[2]` a table.
 """
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
-from typing import Any
+
+from iec2mpy.backends.coding import decode, encode
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,8 +26,8 @@ class Dimension:
 
 @dataclass(frozen=True, slots=True)
 class MappedVariable:
-    """A leaf. `path` as declared, with `[]`, `[,]`, … for subscripts; `kind` how its value is coded (see `_CODERS`);
-    `low`, `high` the values it may have, for what is stored in V; `unsigned` whether its slot is read without a sign."""
+    """A leaf. `path` as declared, with `[]`, `[,]`, … for subscripts; `kind` how its value is coded (`coding.py`);
+    `low`, `high` the values it may have, for what is stored in V, and the capacity of a string."""
 
     path: str
     type: str
@@ -50,3 +52,239 @@ class Site:
     file: str
     line: int
     pou: str
+
+
+@dataclass(frozen=True, slots=True)
+class Leaf:
+    """One value in its slot."""
+
+    variable: MappedVariable
+    path: str
+    slot: int
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """A whole array (`items`) or structure (`fields`, by their names as declared)."""
+
+    path: str
+    items: tuple[Node, ...] | None = None
+    fields: Mapping[str, Node] = field(default_factory=dict)
+
+
+Node = Leaf | Group
+ReadSlots = Callable[[Sequence[tuple[str, int]]], Sequence[object]]
+"""Raw values of places such as ("V", 8)."""
+Written = tuple[str, int, object]
+"""A raw value for a place."""
+
+
+class UnknownPath(LookupError):
+    """The program has no such variable; the text says which are near."""
+
+
+class BadValue(ValueError):
+    """The variable cannot have this value; the text says what it can have."""
+
+
+_TOKEN = re.compile(r"\.?([^.\[\]]+)|\[([^\]]*)\]")
+
+
+class MemoryMap:
+    """Finds variables by their paths, in any letter case, and reads and writes them through raw slots."""
+
+    def __init__(
+        self,
+        variables: Sequence[MappedVariable],
+        enums: Mapping[str, Mapping[str, int]],
+        sites: Sequence[Site],
+        program: str,
+    ) -> None:
+        self.variables = tuple(variables)
+        self.enums = enums
+        self.sites = tuple(sites)
+        self.program = program
+        self._tree: dict[str, object] = {}
+        for variable in self.variables:
+            self._plant(variable)
+        self._by_address = {v.address.upper(): v for v in self.variables if v.address}
+
+    def _plant(self, variable: MappedVariable) -> None:
+        """Adds a leaf to the tree of names: a step is a case-folded name, or "[]" with its dimensions."""
+        dimensions = iter(variable.dimensions)
+        branch = self._tree
+        steps = [(m[1], m[2]) for m in _TOKEN.finditer(variable.path)]
+        for position, (name, subscripts) in enumerate(steps):
+            if name is not None:
+                key, shown = name.casefold(), name
+            else:
+                key, shown = "[]", tuple(next(dimensions) for _ in range(subscripts.count(",") + 1))
+            entry = branch.setdefault(key, (shown, {}))
+            assert isinstance(entry, tuple)
+            if position == len(steps) - 1:
+                branch[key] = (shown, variable)
+            else:
+                branch = entry[1]
+
+    # ------------------------------------------------------------------------------------ finding
+
+    def resolve(self, path: str) -> Node:
+        """What a path such as `main.a[3].x` or `%IX0.0` names; raises UnknownPath."""
+        if path.startswith("%"):
+            variable = self._by_address.get(path.upper())
+            if variable is None:
+                raise UnknownPath(f"the program has nothing at {path}")
+            return Leaf(variable, path.upper(), variable.slot)
+        branch: object = self._tree
+        offsets: list[tuple[int, Dimension]] = []
+        walked = ""
+        for match in _TOKEN.finditer(path):
+            branch, walked = self._step(branch, match, walked, offsets, path)
+        return self._node(branch, walked, offsets)
+
+    def _step(
+        self, branch: object, match: re.Match[str], walked: str, offsets: list[tuple[int, Dimension]], path: str
+    ) -> tuple[object, str]:
+        name, subscripts = match[1], match[2]
+        if not isinstance(branch, dict):
+            raise UnknownPath(f"{walked} has no parts, in {path}")
+        if name is not None:
+            entry = branch.get(name.strip().casefold())
+            if entry is None:
+                raise UnknownPath(self._unknown(name, walked, branch))
+            return entry[1], f"{walked}.{entry[0]}".lstrip(".")
+        if "[]" not in branch:
+            raise UnknownPath(f"{walked} is no array, in {path}")
+        dimensions, inner = branch["[]"]
+        try:
+            numbers = [int(part) for part in subscripts.split(",")]
+        except ValueError:
+            raise UnknownPath(f"{walked}[{subscripts}]: a subscript here is a number") from None
+        if len(numbers) != len(dimensions):
+            raise UnknownPath(f"{walked} has {len(dimensions)} dimensions, not {len(numbers)}")
+        for number, dimension in zip(numbers, dimensions, strict=True):
+            if not dimension.low <= number <= dimension.high:
+                raise UnknownPath(f"{walked}[{subscripts}]: {number} is not in {dimension.low}..{dimension.high}")
+        offsets.extend(zip(numbers, dimensions, strict=True))
+        return inner, f"{walked}[{','.join(map(str, numbers))}]"
+
+    def _unknown(self, name: str, walked: str, branch: Mapping[str, tuple[object, object]]) -> str:
+        from iec2mpy.source.suggest import suggest
+
+        where = f"{walked} has no {name}" if walked else f"there is no {name}"
+        near = suggest(name, [str(shown) for key, (shown, _) in branch.items() if key != "[]"])
+        return f"{where}; did you mean {near}?" if near else where
+
+    def _node(self, branch: object, walked: str, offsets: list[tuple[int, Dimension]]) -> Node:
+        if isinstance(branch, MappedVariable):
+            # the dimensions on the way were taken from some leaf below: each leaf has strides of its own
+            slot = branch.slot
+            for (number, _), dimension in zip(offsets, branch.dimensions, strict=True):
+                slot += (number - dimension.low) * dimension.stride
+            return Leaf(branch, walked, slot)
+        assert isinstance(branch, dict)
+        if "[]" in branch:
+            dimensions, inner = branch["[]"]
+            return self._array(inner, walked, offsets, list(dimensions), [])
+        fields = {shown: self._node(inner, f"{walked}.{shown}", offsets) for shown, inner in branch.values()}
+        return Group(walked, fields=fields)
+
+    def _array(
+        self,
+        inner: object,
+        walked: str,
+        offsets: list[tuple[int, Dimension]],
+        dimensions: list[Dimension],
+        numbers: list[tuple[int, Dimension]],
+    ) -> Node:
+        if not dimensions:
+            subscripts = ",".join(str(number) for number, _ in numbers)
+            return self._node(inner, f"{walked}[{subscripts}]", [*offsets, *numbers])
+        dimension, *rest = dimensions
+        items = (
+            self._array(inner, walked, offsets, rest, [*numbers, (number, dimension)])
+            for number in range(dimension.low, dimension.high + 1)
+        )
+        return Group(walked, items=tuple(items))
+
+    # ------------------------------------------------------------------------- reading and writing
+
+    def leaves(self, node: Node) -> Iterable[Leaf]:
+        """The single values of a node."""
+        if isinstance(node, Leaf):
+            yield node
+            return
+        for part in (*(node.items or ()), *node.fields.values()):
+            yield from self.leaves(part)
+
+    def read(self, node: Node, read_slots: ReadSlots) -> object:
+        """The value: bool, int, float, str; a TIME as `T#…`, an enumeration as its name; lists and tables of these."""
+        leaves = list(self.leaves(node))
+        raw = read_slots([(leaf.variable.array, leaf.slot) for leaf in leaves])
+        values = {leaf: self.decode(leaf, value) for leaf, value in zip(leaves, raw, strict=True)}
+
+        def build(part: Node) -> object:
+            if isinstance(part, Leaf):
+                return values[part]
+            if part.items is not None:
+                return [build(item) for item in part.items]
+            return {name: build(inner) for name, inner in part.fields.items()}
+
+        return build(node)
+
+    def decode(self, leaf: Leaf, raw: object) -> object:
+        """The value of a slot as it is shown."""
+        return decode(leaf.variable.kind, raw, self.enums.get(leaf.variable.type, {}))
+
+    def write(self, node: Node, value: object) -> list[Written]:
+        """The raw values that give the node a value; of a structure, only the fields that are named. Raises BadValue."""
+        if isinstance(node, Leaf):
+            variable = node.variable
+            try:
+                raw = encode(variable.kind, value, variable.low, variable.high, self.enums.get(variable.type, {}))
+            except ValueError as error:
+                raise BadValue(f"{node.path} is {variable.type}: {error}") from None
+            return [(variable.array, node.slot, raw)]
+        if node.items is not None:
+            if not isinstance(value, Sequence) or isinstance(value, str) or len(value) != len(node.items):
+                raise BadValue(f"{node.path} is an array of {len(node.items)}: its value is a list of as many")
+            return [w for item, part in zip(node.items, value, strict=True) for w in self.write(item, part)]
+        if not isinstance(value, Mapping):
+            raise BadValue(f"{node.path} is a structure: its value is a table of its fields")
+        written = []
+        fields = {name.casefold(): part for name, part in node.fields.items()}
+        for name, part in value.items():
+            if name.casefold() not in fields:
+                raise BadValue(f"{node.path} has no field {name}")
+            written += self.write(fields[name.casefold()], part)
+        return written
+
+    def site(self, number: int) -> Site | None:
+        """The place with this number, or None."""
+        return next((site for site in self.sites if site.number == number), None)
+
+    # ------------------------------------------------------------------------------------- as text
+
+    def to_json(self) -> str:
+        """The file `program.map.json`."""
+        content = {
+            "version": 1,
+            "program": self.program,
+            "variables": [asdict(variable) for variable in self.variables],
+            "enums": {name: dict(values) for name, values in self.enums.items()},
+            "sites": [asdict(site) for site in self.sites],
+        }
+        return json.dumps(content, indent=1) + "\n"
+
+    def to_names(self) -> str:
+        """The file `program.names`, which the board reads line by line (docs/internals.md)."""
+        lines = []
+        for name, values in self.enums.items():
+            lines.append("\t".join([f"={name}", *(f"{value}:{number}" for value, number in values.items())]))
+        for v in self.variables:
+            dimensions = ";".join(f"{d.low}:{d.high}:{d.stride}" for d in v.dimensions)
+            bounds = (str(v.low), str(v.high)) if v.array == "V" or v.kind == "string" else ("", "")
+            type_name = "BOOL" if v.kind == "bool" else v.type  # not an alias: the board tells BOOL by its name
+            lines.append("\t".join([v.path.casefold(), type_name, v.array, str(v.slot), *bounds, dimensions]))
+        lines += ["\t".join([f"@{s.number}", s.file, str(s.line), s.pou]) for s in self.sites]
+        return "\n".join(lines) + "\n"

@@ -1,0 +1,111 @@
+"""How a value looks in its slot, and outside of it: one pair of functions a kind of variable."""
+
+from __future__ import annotations
+
+import re
+import struct
+from collections.abc import Callable, Mapping
+
+from iec2mpy.backends.forms import pattern
+
+Enum = Mapping[str, int]
+_UNITS = (("d", 86_400_000), ("h", 3_600_000), ("m", 60_000), ("s", 1000), ("ms", 1))
+_DURATION = re.compile(r"(?:T|TIME)#(?P<sign>-?)(?P<parts>(?:\d+(?:_\d+)*(?:\.\d+)?(?:d|h|ms|m|s)_?)+)", re.IGNORECASE)
+_PART = re.compile(r"(\d+(?:_\d+)*(?:\.\d+)?)(d|h|ms|m|s)", re.IGNORECASE)
+
+
+def format_duration(milliseconds: int) -> str:
+    """`T#1h30m`, `T#-500ms`, `T#0ms`."""
+    left, text = abs(milliseconds), ""
+    for unit, size in _UNITS:
+        count, left = divmod(left, size)
+        text += f"{count}{unit}" if count else ""
+    return f"T#{'-' if milliseconds < 0 else ''}{text or '0ms'}"
+
+
+def parse_duration(text: str) -> int:
+    """Milliseconds of a duration such as `T#1s500ms`; raises ValueError."""
+    match = _DURATION.fullmatch(text.strip())
+    if match is None:
+        raise ValueError(f"{text!r} is no duration such as T#1s500ms")
+    sizes = dict(_UNITS)
+    total = sum(float(n.replace("_", "")) * sizes[unit.lower()] for n, unit in _PART.findall(match["parts"]))
+    return round(-total if match["sign"] else total)
+
+
+def _in_range(value: int, low: int, high: int) -> int:
+    if not low <= value <= high:
+        raise ValueError(f"{value} is not in {low}..{high}")
+    return pattern(value)
+
+
+def _encode_bool(value: object, _low: int, _high: int, _enum: Enum) -> object:
+    if isinstance(value, bool) or (isinstance(value, int) and value in (0, 1)):
+        return int(value)
+    raise ValueError(f"{value!r} is neither true nor false")
+
+
+def _encode_integer(value: object, low: int, high: int, _enum: Enum) -> object:
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise ValueError(f"{value!r} is no integer")
+    return _in_range(value, low, high)
+
+
+def _encode_real(value: object, _low: int, _high: int, _enum: Enum) -> object:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ValueError(f"{value!r} is no number")
+    try:
+        return struct.unpack("<f", struct.pack("<f", value))[0]
+    except OverflowError:
+        raise ValueError(f"{value!r} is too large for REAL") from None
+
+
+def _encode_duration(value: object, low: int, high: int, _enum: Enum) -> object:
+    if not isinstance(value, str):
+        raise ValueError(f"{value!r} is no duration such as T#1s500ms")
+    return _in_range(parse_duration(value), low, high)
+
+
+def _encode_string(value: object, _low: int, high: int, _enum: Enum) -> object:
+    if not isinstance(value, str):
+        raise ValueError(f"{value!r} is no string")
+    if len(value) > high:
+        raise ValueError(f"{len(value)} characters are more than {high}")
+    return value
+
+
+def _encode_enum(value: object, _low: int, _high: int, enum: Enum) -> object:
+    names = {name.casefold(): number for name, number in enum.items()}
+    if isinstance(value, str) and value.rpartition("#")[2].casefold() in names:
+        return names[value.rpartition("#")[2].casefold()]
+    raise ValueError(f"{value!r} is none of {', '.join(enum)}")
+
+
+def _decode_enum(raw: object, enum: Enum) -> object:
+    return next((name for name, number in enum.items() if number == raw), raw)
+
+
+_CODERS: Mapping[str, tuple[Callable[[object, Enum], object], Callable[[object, int, int, Enum], object]]] = {
+    "bool": (lambda raw, _: bool(raw), _encode_bool),
+    "integer": (lambda raw, _: raw, _encode_integer),
+    "unsigned32": (lambda raw, _: _as_int(raw) & 0xFFFFFFFF, _encode_integer),
+    "real": (lambda raw, _: raw, _encode_real),
+    "duration": (lambda raw, _: format_duration(_as_int(raw)), _encode_duration),
+    "string": (lambda raw, _: raw, _encode_string),
+    "enum": (_decode_enum, _encode_enum),
+}
+
+
+def _as_int(raw: object) -> int:
+    assert isinstance(raw, int)
+    return raw
+
+
+def decode(kind: str, raw: object, enum: Enum) -> object:
+    """The value of a slot as it is shown: bool, int, float, str; TIME as `T#…`, an enumeration as its name."""
+    return _CODERS[kind][0](raw, enum)
+
+
+def encode(kind: str, value: object, low: int, high: int, enum: Enum) -> object:
+    """The raw form of a value that is shown so; raises ValueError where the variable cannot have it."""
+    return _CODERS[kind][1](value, low, high, enum)

@@ -1,0 +1,276 @@
+"""Expressions of the IR as text of Python, in either form."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass, field
+
+from iec2mpy.backends import forms
+from iec2mpy.backends.addresses import Addresses
+from iec2mpy.backends.forms import Binding, Text, call, infix, number
+from iec2mpy.backends.layout import NOW, Layout
+from iec2mpy.backends.names import SlotNames
+from iec2mpy.backends.target import Target
+from iec2mpy.ir import nodes as n
+from iec2mpy.ir.bounds import bounds
+from iec2mpy.ir.intrinsics import INTRINSICS
+from iec2mpy.ir.walk import parts
+from iec2mpy.semantics import types as ty
+from iec2mpy.semantics.typed import Pou
+
+_SYMBOLS = {"add": "+", "sub": "-", "mul": "*", "and": "&", "or": "|", "xor": "^"}
+_VIPER_LITERAL = 1 << 30
+"""A literal of this size and beyond is an object to a 32-bit viper."""
+
+
+@dataclass(slots=True)
+class ExpressionWriter:
+    """Writes the expressions of one body; notes which functions of the runtime they need."""
+
+    target: Target
+    layout: Layout
+    names: SlotNames
+    pou: Pou
+    runtime: dict[str, set[str]]
+    """Functions used so far, by module of `mcu_runtime`."""
+    addresses: Addresses = field(init=False)
+    uses_objects: bool = False
+
+    def __post_init__(self) -> None:
+        self.addresses = Addresses(self.layout, self.names, self.pou, self.value)
+
+    @property
+    def viper(self) -> bool:
+        return self.target.form == "viper"
+
+    def need(self, module: str, function: str) -> str:
+        """Notes that a function of the runtime is used; gives its name."""
+        self.runtime.setdefault(module, set()).add(function)
+        return function
+
+    # ---------------------------------------------------------------------------------- conditions
+
+    def condition(self, expr: n.Expr, negate: bool = False) -> Text:
+        """A BOOL where only its truth counts. `and` and `or` may leave out the right side: not where that may fault."""
+        match expr:
+            case n.Not(operand, ty.BOOL):
+                return self.condition(operand, not negate)
+            case n.Const():
+                # viper takes no True in `while`, and MicroPython optimises `while 1`
+                return number(int(bool(expr.value) != negate))
+            case n.Op(name, left, right) if name in n.COMPARISONS and not (negate and left.type is ty.REAL):
+                return self._comparison(_NEGATED[name] if negate else name, left, right)
+            case n.Op(name, left, right) if name in n.COMPARISONS:
+                # with a NaN, neither a < b nor a >= b holds
+                return Text(f"not {self._comparison(name, left, right).at(Binding.COMPARE)}", Binding.NOT)
+            case n.Op("and" | "or" as name, left, right) if expr.type is ty.BOOL and not _may_fault(right):
+                operator = name if not negate else {"and": "or", "or": "and"}[name]
+                return infix(self.condition(left, negate), operator, self.condition(right, negate))
+            case _:
+                text = self.value(expr)
+                return Text(f"not {text.at(Binding.NOT)}", Binding.NOT) if negate else text
+
+    # -------------------------------------------------------------------------------------- values
+
+    def value(self, expr: n.Expr) -> Text:
+        """The value: a machine word for what lives in V, an object for what lives in O."""
+        match expr:
+            case n.Const(value):
+                return self._constant(value, expr.type)
+            case n.Local(local, value_type):
+                return Text(f"{'x' if _in_objects(value_type) else 't'}{local}")
+            case n.Load(place, value_type):
+                return self._load(place, value_type)
+            case n.Now(value_type):
+                assert isinstance(value_type, ty.ElementaryType)
+                return forms.load(self.target, Text(f"v[{self.names.name(('now',), NOW)}]"), value_type, value_type.low)
+            case n.Op(name, left, right, value_type):
+                return self._operation(name, left, right, value_type)
+            case n.Not(operand, value_type):
+                return self._complement(operand, value_type)
+            case n.Wrap(operand, value_type):
+                assert isinstance(value_type, ty.ElementaryType)
+                return forms.wrap(self.target, self.value(operand), value_type)
+            case n.ToReal(operand):
+                return self._to_real(operand)
+            case n.Select(condition, then, otherwise):
+                chosen = f"{self.value(then).at(Binding.OR)} if {self.condition(condition).at(Binding.OR)}"
+                return Text(f"{chosen} else {self.value(otherwise).at(Binding.SELECT)}", Binding.SELECT)
+            case n.Intrinsic(name, arguments, value_type):
+                return self._intrinsic(name, arguments, value_type)
+
+    def _constant(self, value: object, value_type: n.ValueType) -> Text:
+        if isinstance(value_type, ty.StringType):
+            return Text(quoted(str(value)))
+        if value_type is ty.REAL:
+            assert isinstance(value, (int, float))
+            return real_literal(float(value), self.target.single)
+        assert isinstance(value, int) and isinstance(value_type, ty.ElementaryType)
+        if forms.held_as_pattern(self.target, value_type):
+            value = forms.pattern(value)
+        if self.target.word == 32 and not -_VIPER_LITERAL <= value < _VIPER_LITERAL:
+            slot = self.layout.constant(value)
+            return Text(f"v[{self.names.name(('const', f'{value & 0xFFFFFFFF:08X}'), slot, str(value))}]")
+        return number(value)
+
+    def _load(self, place: n.Place, value_type: n.ValueType) -> Text:
+        if _in_objects(value_type):
+            self.uses_objects = True
+            return Text(f"o[{self.addresses.subscript(place, 'O').code}]")
+        assert isinstance(value_type, ty.ElementaryType)
+        low, _ = ty.value_range(place.type) or (value_type.low, value_type.high)
+        return forms.load(self.target, Text(f"v[{self.addresses.subscript(place, 'V').code}]"), value_type, low)
+
+    def _comparison(self, name: str, left: n.Expr, right: n.Expr) -> Text:
+        texts = [self.value(left), self.value(right)]
+        if name not in ("eq", "ne") and any(self._may_be_pattern(operand) for operand in (left, right)):
+            texts = [call("uint", text) for text in texts]
+        return infix(texts[0], n.COMPARISONS[name], texts[1])
+
+    def _may_be_pattern(self, operand: n.Expr) -> bool:
+        """Whether the value may be held as a negative number that means one from 2^31 on."""
+        return (
+            isinstance(operand.type, ty.ElementaryType)
+            and forms.held_as_pattern(self.target, operand.type)
+            and bounds(operand)[1] >= 1 << 31
+        )
+
+    def _operation(self, name: str, left: n.Expr, right: n.Expr, value_type: n.ValueType) -> Text:
+        if name in n.COMPARISONS:
+            compared = self._comparison(name, left, right)
+            # to viper a comparison is a bool, which takes part in no operation
+            return call("int", compared) if self.viper else compared
+        if value_type is ty.REAL:
+            return self._rounded(infix(self.value(left), "/" if name == "div" else _SYMBOLS[name], self.value(right)))
+        assert isinstance(value_type, ty.ElementaryType)
+        match name:
+            case "div" | "mod":
+                return self._division(name, left, right)
+            case "shl":
+                return infix(self.value(left), "<<", self.value(right))
+            case "shr":
+                return self._shifted_right(self.value(left), self.value(right), value_type)
+            case "rol" | "ror":
+                return self._rotated(name, left, right, value_type)
+            case _:
+                return infix(self.value(left), _SYMBOLS[name], self.value(right))
+
+    def _shifted_right(self, value: Text, count: Text, value_type: ty.ElementaryType) -> Text:
+        shifted = infix(forms.unsigned(self.target, value, value_type), ">>", count)
+        return call("int", shifted) if forms.held_as_pattern(self.target, value_type) else shifted
+
+    def _rotated(self, name: str, left: n.Expr, right: n.Expr, value_type: ty.ElementaryType) -> Text:
+        """The count is from 1 to the width less 1."""
+        value, count = self.value(left), self.value(right)
+        rest = infix(number(value_type.bits), "-", count)
+        up, down = (count, rest) if name == "rol" else (rest, count)
+        high = forms.wrap(self.target, infix(value, "<<", up), value_type)
+        return infix(high, "|", self._shifted_right(value, down, value_type))
+
+    def _division(self, name: str, left: n.Expr, right: n.Expr) -> Text:
+        """Python's `//` and `%` round down, the standard's `/` and MOD towards zero (table 29); the divisor is not 0.
+
+        Before it is divided, a dividend of the other sign is moved towards the next multiple: (a + b - 1) // b for a
+        negative a and a positive b. No intermediate value leaves the machine word.
+        """
+        (low, _), (divisor_low, divisor_high) = bounds(left), bounds(right)
+        a, b = self.value(left), self.value(right)
+        if low >= 0 and divisor_low >= 0:
+            return infix(a, "//" if name == "div" else "%", b)
+        below = _choice(infix(b, "-", number(1)), infix(a, "<", number(0)), number(0))
+        above = _choice(infix(b, "+", number(1)), infix(a, ">", number(0)), number(0))
+        if divisor_low >= 0:
+            moved = below
+        elif divisor_high <= 0:
+            moved = above
+        else:
+            moved = _choice(below, infix(b, ">", number(0)), above)
+        quotient = infix(infix(a, "+", moved), "//", b)
+        return quotient if name == "div" else infix(a, "-", infix(quotient, "*", b))
+
+    def _complement(self, operand: n.Expr, value_type: n.ValueType) -> Text:
+        assert isinstance(value_type, ty.ElementaryType)
+        if value_type is ty.BOOL:
+            if isinstance(operand, n.Op) and operand.name in n.COMPARISONS and operand.left.type is not ty.REAL:
+                return self._operation(_NEGATED[operand.name], operand.left, operand.right, ty.BOOL)
+            return infix(self.value(operand), "^", number(1))
+        ones = -1 if forms.held_as_pattern(self.target, value_type) else value_type.high
+        return infix(self.value(operand), "^", number(ones))
+
+    def _to_real(self, operand: n.Expr) -> Text:
+        assert isinstance(operand.type, ty.ElementaryType)
+        value = call("float", forms.unsigned(self.target, self.value(operand), operand.type))
+        low, high = bounds(operand)
+        # integers of up to 24 bits are exact in single precision
+        return value if -(1 << 24) <= low and high <= 1 << 24 else self._rounded(value)
+
+    def _intrinsic(self, name: str, arguments: tuple[n.Expr, ...], value_type: n.ValueType) -> Text:
+        runtime = INTRINSICS[name]
+        if runtime.module is not None:
+            self.need(runtime.module, runtime.function)
+        texts = [self._argument(argument) for argument in arguments]
+        result = call(runtime.function, *texts)
+        if runtime.rounds:
+            return self._rounded(result)
+        return call("int", result) if self.viper and not _in_objects(value_type) else result
+
+    def _argument(self, argument: n.Expr) -> Text:
+        """An argument of a function of the runtime: there, a number is an object, of any size."""
+        if isinstance(argument, n.Const) and isinstance(argument.value, int):
+            return number(argument.value)
+        text = self.value(argument)
+        if isinstance(argument.type, ty.ElementaryType) and not argument.type.in_objects:
+            return forms.unsigned(self.target, text, argument.type)
+        return text
+
+    def _rounded(self, value: Text) -> Text:
+        """A REAL result in single precision, where the host computes in double."""
+        return value if self.target.single else call(self.need("arithmetic", "f32"), value)
+
+
+_NEGATED = {"eq": "ne", "ne": "eq", "lt": "ge", "ge": "lt", "gt": "le", "le": "gt"}
+
+
+def _choice(then: Text, condition: Text, otherwise: Text) -> Text:
+    return Text(f"{then.at(Binding.OR)} if {condition.code} else {otherwise.code}", Binding.SELECT)
+
+
+def _in_objects(value_type: n.ValueType) -> bool:
+    return isinstance(value_type, ty.StringType) or value_type.in_objects
+
+
+def _may_fault(expr: n.Expr) -> bool:
+    return any(isinstance(part, n.Intrinsic) and INTRINSICS[part.name].faults for part in parts(expr))
+
+
+def real_literal(value: float, single: bool) -> Text:
+    """A REAL constant. For single precision the shortest text that means it; else all digits of the single value."""
+    if value != value or value in (float("inf"), float("-inf")):
+        return Text(f'float("{value}")')
+    code = repr(value)
+    if single:
+        code = next(t for t in (f"{value:.{digits}g}" for digits in range(6, 18)) if _same_single(float(t), value))
+        if not any(mark in code for mark in ".en"):
+            code += ".0"
+    return Text(code, Binding.UNARY if code.startswith("-") else Binding.ATOM)
+
+
+def _same_single(a: float, b: float) -> bool:
+    try:
+        return struct.pack("<f", a) == struct.pack("<f", b)
+    except OverflowError:
+        return False
+
+
+def quoted(text: str) -> str:
+    """A string literal that Python and MicroPython read alike."""
+    characters = []
+    for character in text:
+        if character in '"\\':
+            characters.append("\\" + character)
+        elif " " <= character <= "~":
+            characters.append(character)
+        else:
+            code = ord(character)
+            characters.append(f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}")
+    return '"' + "".join(characters) + '"'

@@ -1,0 +1,224 @@
+"""The layout of the memory image: which slots of V and O each variable gets."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from iec2mpy.ir import nodes as n
+from iec2mpy.ir.walk import expressions, places, statements
+from iec2mpy.semantics import types as ty
+from iec2mpy.semantics.typed import Pou, Value, Variable
+from iec2mpy.syntax.tree import PouKind, Section
+
+# slots of V that belong to the controller (`mcu_runtime/slots.py` has the same numbers)
+NOW = 1
+LOOP = 2
+SITE = 3
+FIRST = 8
+FIRST_OBJECT = 1
+
+MAX_SLOTS = 1 << 16
+"""A reference has 16 bits for a slot of V …"""
+MAX_OBJECTS = 1 << 14
+"""… and 14 for one of O."""
+
+
+@dataclass(frozen=True, slots=True)
+class Size:
+    """So many slots of V and of O; also a position in both."""
+
+    v: int
+    o: int
+
+    def __add__(self, other: Size) -> Size:
+        return Size(self.v + other.v, self.o + other.o)
+
+    def times(self, count: int) -> Size:
+        return Size(self.v * count, self.o * count)
+
+    def of(self, array: str) -> int:
+        """The part in one of the two arrays."""
+        return self.v if array == "V" else self.o
+
+
+_SLOT = Size(1, 0)
+_OBJECT = Size(0, 1)
+NOWHERE = Size(0, 0)
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """Where the variables of a block, a frame or a structure stand, from its base."""
+
+    offsets: dict[Variable, Size]
+    size: Size
+
+
+@dataclass(slots=True)
+class Layout:
+    """The positions of everything. `located` by address: all variables at one address are one storage. `instances` by the number of the program; a constant too large for the code of a
+    32-bit viper has a slot of its own (`constants`)."""
+
+    module: n.Module
+    globals: dict[Variable, Size] = field(default_factory=dict)
+    located: dict[str, tuple[Variable, Size]] = field(default_factory=dict)
+    instances: list[Size] = field(default_factory=list)
+    frames: dict[Pou, Size] = field(default_factory=dict)
+    constants: dict[int, int] = field(default_factory=dict)
+    size: Size = Size(FIRST, FIRST_OBJECT)
+    _records: dict[Pou | ty.StructType, Record] = field(default_factory=dict)
+    _frame_records: dict[Pou, Record] = field(default_factory=dict)
+    _single_bases: dict[Pou, Size | None] = field(default_factory=dict)
+
+    # -------------------------------------------------------------------------------------- sizes
+
+    def size_of(self, declared: ty.Type) -> Size:
+        """The slots that a value of this type takes."""
+        declared = ty.base_type(declared)
+        if isinstance(declared, ty.ArrayType):
+            count = 1
+            for length in declared.lengths:
+                count *= length
+            return self.size_of(declared.element).times(count)
+        if isinstance(declared, (ty.StructType, ty.BlockType)):
+            return self.record(declared).size
+        stored = ty.value_type(declared)
+        assert stored is not None
+        return _OBJECT if isinstance(stored, ty.StringType) or stored.in_objects else _SLOT
+
+    def record(self, declared: ty.StructType | ty.BlockType) -> Record:
+        """The layout of a structure or of a block's instances."""
+        if isinstance(declared, ty.BlockType):
+            return self.instance_record(declared.pou)
+        if declared not in self._records:
+            self._records[declared] = self._lay_out(list(declared.fields.values()))
+        return self._records[declared]
+
+    def instance_record(self, pou: Pou) -> Record:
+        """What an instance of a block or program keeps: all but VAR_TEMP and what is elsewhere."""
+        if pou not in self._records:
+            elsewhere = (Section.TEMP, Section.EXTERNAL)
+            kept = [v for v in pou.variables.values() if v.section not in elsewhere and v.address is None]
+            self._records[pou] = self._lay_out(kept)
+        return self._records[pou]
+
+    def frame_record(self, pou: Pou) -> Record:
+        """What a POU holds only while it runs."""
+        if pou not in self._frame_records:
+            variables = list(pou.variables.values())
+            if pou.kind is not PouKind.FUNCTION:
+                variables = [v for v in variables if v.section is Section.TEMP]
+            held = [v for v in variables if v.section is not Section.EXTERNAL]
+            if pou.result is not None:
+                held.append(pou.result)
+            body = self.module.bodies.get(pou)
+            self._frame_records[pou] = self._lay_out([*held, *(body.hidden if body else ())])
+        return self._frame_records[pou]
+
+    def _lay_out(self, variables: Sequence[Variable]) -> Record:
+        offsets: dict[Variable, Size] = {}
+        at = NOWHERE
+        for variable in variables:
+            offsets[variable] = at
+            at += self.storage_of(variable)
+        return Record(offsets, at)
+
+    def storage_of(self, variable: Variable) -> Size:
+        """The slots of a variable: an in-out is a reference, in one slot."""
+        return _SLOT if variable.section is Section.IN_OUT else self.size_of(variable.type)
+
+    # ---------------------------------------------------------------------------------- positions
+
+    def place(self, variable_size: Size) -> Size:
+        """Takes the next free slots."""
+        at = self.size
+        self.size += variable_size
+        return at
+
+    def place_global(self, variable: Variable) -> None:
+        """Gives a global or located variable its place, unless it has one."""
+        if variable.address is None:
+            self.globals[variable] = self.place(self.size_of(variable.type))
+        elif variable.address not in self.located:
+            self.located[variable.address] = variable, self.place(self.size_of(variable.type))
+
+    def global_position(self, variable: Variable) -> Size:
+        return self.globals[variable] if variable.address is None else self.located[variable.address][1]
+
+    def constant(self, value: int) -> int:
+        """The slot of V that holds a constant."""
+        if value not in self.constants:
+            self.constants[value] = self.place(_SLOT).v
+        return self.constants[value]
+
+    def single_base(self, pou: Pou) -> Size | None:
+        """The base of the one instance that a block or program has in all of the application, or None where there are
+        several. Such a body needs no base at run time."""
+        return self._single_bases.get(pou)
+
+    def storages(self) -> Iterator[tuple[Variable | None, ty.Type, Value, Size, bool]]:
+        """Everything that has a place and an initial value: (variable, type, value, position, retained)."""
+        for variable, at in (*self.globals.items(), *self.located.values()):
+            yield variable, variable.type, variable.initial, at, variable.retain
+        for run, base in zip(self.module.programs, self.instances, strict=True):
+            for variable, offset in self.instance_record(run.pou).offsets.items():
+                if variable.section is not Section.IN_OUT:
+                    yield variable, variable.type, variable.initial, base + offset, run.retain or variable.retain
+        for pou, base in self.frames.items():
+            for variable, offset in self.frame_record(pou).offsets.items():
+                if variable.section is not Section.IN_OUT:
+                    yield variable, variable.type, variable.initial, base + offset, False
+
+    def find_single_bases(self) -> None:
+        """Counts the instances of each block and program, once all have their positions."""
+        bases: dict[Pou, list[Size]] = {}
+        for run, base in zip(self.module.programs, self.instances, strict=True):
+            bases.setdefault(run.pou, []).append(base)
+        for _, declared, _, at, _ in self.storages():
+            for pou, base in self._instances_in(declared, at):
+                bases.setdefault(pou, []).append(base)
+        self._single_bases = {pou: found[0] if len(found) == 1 else None for pou, found in bases.items()}
+
+    def _instances_in(self, declared: ty.Type, at: Size) -> Iterator[tuple[Pou, Size]]:
+        """The block instances in a variable; of an array of instances, two stand for all."""
+        declared = ty.unaliased(declared)
+        if isinstance(declared, ty.ArrayType):
+            size = self.size_of(declared)
+            element = self.size_of(declared.element)
+            count = max(size.v // element.v if element.v else 0, size.o // element.o if element.o else 0)
+            for number in range(min(count, 2)):
+                yield from self._instances_in(declared.element, at + element.times(number))
+        elif isinstance(declared, ty.StructType):
+            for variable, offset in self.record(declared).offsets.items():
+                yield from self._instances_in(variable.type, at + offset)
+        elif isinstance(declared, ty.BlockType):
+            yield declared.pou, at
+            for variable, offset in self.record(declared).offsets.items():
+                if variable.section is not Section.IN_OUT:
+                    yield from self._instances_in(variable.type, at + offset)
+
+
+def lay_out(module: n.Module) -> Layout:
+    """Gives everything in the module its place: globals and located variables, programs, frames."""
+    layout = Layout(module)
+    for variable in (*module.globals, *_located_variables(module)):
+        layout.place_global(variable)
+    for run in module.programs:
+        layout.instances.append(layout.place(layout.instance_record(run.pou).size))
+    for pou in module.bodies:
+        layout.frames[pou] = layout.place(layout.frame_record(pou).size)
+    layout.find_single_bases()
+    return layout
+
+
+def _located_variables(module: n.Module) -> Iterator[Variable]:
+    """Variables at an address that are declared in a POU, or named by the address alone."""
+    for pou in module.bodies:
+        yield from (v for v in pou.variables.values() if v.address is not None)
+    for body in module.bodies.values():
+        for statement in statements(body.block):
+            found = [*places(statement), *(e.place for e in expressions(statement) if isinstance(e, n.Load))]
+            for place in found:
+                if isinstance(place.root, n.Global) and place.root.variable.address is not None:
+                    yield place.root.variable

@@ -1,0 +1,121 @@
+"""From the layout to the map: every variable that can be seen from outside, as leaves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from iec2mpy.backends.layout import Layout, Size
+from iec2mpy.backends.memory_map import Dimension, MappedVariable, MemoryMap, Site
+from iec2mpy.semantics import types as ty
+from iec2mpy.semantics.typed import Variable
+from iec2mpy.semantics.types import Kind
+from iec2mpy.syntax.tree import PouKind, Section
+
+_KINDS = {Kind.BOOL: "bool", Kind.REAL: "real", Kind.DURATION: "duration", Kind.STRING: "string"}
+
+
+def make_map(layout: Layout, sites: list[Site], program: str) -> MemoryMap:
+    """The map of all global and located variables, and of the programs with what is in them."""
+    enums: dict[str, dict[str, int]] = {}
+    variables = list(_variables(layout, enums))
+    return MemoryMap(variables, enums, sites, program)
+
+
+def _variables(layout: Layout, enums: dict[str, dict[str, int]]) -> Iterator[MappedVariable]:
+    for variable, at in layout.globals.items():
+        yield from _leaves(layout, variable, variable.name, at, variable.retain, enums)
+    named: set[str] = set()
+    for run, base in zip(layout.module.programs, layout.instances, strict=True):
+        for variable in run.pou.variables.values():
+            position = _position(layout, run.pou, variable, base)
+            if position is None:
+                continue
+            if variable.address is not None:
+                named.add(variable.address)
+            retain = run.retain or variable.retain
+            yield from _leaves(layout, variable, f"{run.name}.{variable.name}", position, retain, enums)
+    for address, (variable, at) in layout.located.items():
+        if address not in named:
+            yield from _leaves(layout, variable, variable.name, at, variable.retain, enums)
+
+
+def _position(layout: Layout, pou: object, variable: Variable, base: Size) -> Size | None:
+    """Where a program's variable is; None for what belongs to others."""
+    owner = variable.owner
+    assert owner is not None and owner is pou and owner.kind is PouKind.PROGRAM
+    if variable.section in (Section.IN_OUT, Section.EXTERNAL):
+        return None
+    if variable.address is not None:
+        return layout.located[variable.address][1]
+    if variable.section is Section.TEMP:
+        return layout.frames[owner] + layout.frame_record(owner).offsets[variable]
+    return base + layout.instance_record(owner).offsets[variable]
+
+
+def _leaves(
+    layout: Layout, variable: Variable, path: str, at: Size, retain: bool, enums: dict[str, dict[str, int]]
+) -> Iterator[MappedVariable]:
+    for leaf in _type_leaves(layout, variable.type, path, at, {"V": (), "O": ()}, enums):
+        yield replace(
+            leaf,
+            address=variable.address if leaf.path == path else None,
+            retain=retain,
+            constant=variable.constant,
+            file=variable.span.file.path,
+            line=variable.span.line,
+        )
+
+
+def _type_leaves(
+    layout: Layout,
+    declared: ty.Type,
+    path: str,
+    at: Size,
+    dimensions: dict[str, tuple[Dimension, ...]],
+    enums: dict[str, dict[str, int]],
+) -> Iterator[MappedVariable]:
+    shape = ty.unaliased(declared)
+    if isinstance(shape, ty.ArrayType):
+        element = layout.size_of(shape.element)
+        inner = {array: (*dimensions[array], *_dimensions(shape, element.of(array))) for array in "VO"}
+        path += f"[{',' * (len(shape.bounds) - 1)}]"
+        yield from _type_leaves(layout, shape.element, path, at, inner, enums)
+    elif isinstance(shape, (ty.StructType, ty.BlockType)):
+        for variable, offset in layout.record(shape).offsets.items():
+            if variable.section is not Section.IN_OUT:
+                inner_path = f"{path}.{variable.name}"
+                yield from _type_leaves(layout, variable.type, inner_path, at + offset, dimensions, enums)
+    else:
+        yield _leaf(shape, str(declared), path, at, dimensions, enums)
+
+
+def _dimensions(array: ty.ArrayType, stride: int) -> list[Dimension]:
+    """The last subscript runs fastest."""
+    found: list[Dimension] = []
+    for (low, high), length in zip(reversed(array.bounds), reversed(array.lengths), strict=True):
+        found.insert(0, Dimension(low, high, stride))
+        stride *= length
+    return found
+
+
+def _leaf(
+    shape: ty.Type,
+    type_name: str,
+    path: str,
+    at: Size,
+    dimensions: dict[str, tuple[Dimension, ...]],
+    enums: dict[str, dict[str, int]],
+) -> MappedVariable:
+    stored = ty.value_type(shape)
+    assert stored is not None
+    if isinstance(stored, ty.StringType):
+        return MappedVariable(path, type_name, "string", "O", at.o, 0, stored.length, dimensions["O"])
+    if stored.in_objects:
+        return MappedVariable(path, type_name, _KINDS[stored.kind], "O", at.o, 0, 0, dimensions["O"])
+    low, high = ty.value_range(shape) or (stored.low, stored.high)
+    kind = _KINDS.get(stored.kind, "unsigned32" if stored.bits == 32 and stored.low == 0 else "integer")
+    if isinstance(shape, ty.EnumType):
+        kind, type_name = "enum", shape.name
+        enums[shape.name] = dict(shape.values)
+    return MappedVariable(path, type_name, kind, "V", at.v, low, high, dimensions["V"])

@@ -1,0 +1,53 @@
+"""Names in generated code: of functions, and of the constants that stand for slots."""
+
+from __future__ import annotations
+
+import keyword
+import re
+
+from iec2mpy.semantics.typed import Pou
+
+_TAKEN = frozenset(
+    {"V", "O", "TASKS", "UNTIMED", "RETAIN", "INPUTS", "OUTPUTS", "HASH", "reset", "v", "o", "b", "p", "const", "array"}
+    | {"micropython", "abs", "len", "float", "int", "uint", "ptr32", "bool", "object", "range", "fill", "put", "loop_check"}
+)
+
+
+class SlotNames:
+    """The constants of a module: one name a slot number and use, shown with what it stands for."""
+
+    def __init__(self) -> None:
+        self._values: dict[str, int] = {}
+        self._comments: dict[str, str] = {}
+
+    def name(self, path: tuple[str, ...], value: int, comment: str = "") -> str:
+        """The name of the constant `value` for a path such as ("main", "delay", "IN")."""
+        base = "_" + re.sub(r"\W", "_", "_".join(path)).upper().strip("_")
+        name, suffix = base, 2
+        while self._values.get(name, value) != value:
+            name, suffix = f"{base}_{suffix}", suffix + 1
+        self._values[name] = value
+        if comment:
+            self._comments.setdefault(name, comment)
+        return name
+
+    def lines(self) -> list[str]:
+        """The definitions, by value."""
+        rows = sorted(self._values.items(), key=lambda item: (item[1], item[0]))
+        return [
+            f"{name} = const({value})" + (f"  # {self._comments[name]}" if name in self._comments else "")
+            for name, value in rows
+        ]
+
+
+def function_names(pous: list[Pou], runtime: set[str]) -> dict[Pou, str]:
+    """A Python name for each body: the POU's own, unless Python or the runtime has it."""
+    taken = _TAKEN | runtime
+    names: dict[Pou, str] = {}
+    for pou in pous:
+        name = pou.name.replace(".", "_")
+        while name in taken or keyword.iskeyword(name) or re.fullmatch(r"[tx]\d+|task_\w+|_.*", name):
+            name = name.lstrip("_") + "_"
+        names[pou] = name
+        taken |= {name}
+    return names

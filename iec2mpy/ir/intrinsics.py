@@ -1,0 +1,61 @@
+"""The functions of the runtime that generated code calls: one row each, read by the builder and by the backends."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Runtime:
+    """`function` of `module` (in `mcu_runtime`; None for a built-in of Python). `faults`: whether it may raise one.
+    `rounds`: whether it gives a REAL that a host with doubles has to round to single."""
+
+    function: str
+    module: str | None = "arithmetic"
+    faults: bool = False
+    rounds: bool = False
+
+
+def _real(name: str, faults: bool = False) -> Runtime:
+    return Runtime(f"real_{name}", faults=faults, rounds=True)
+
+
+INTRINSICS: Mapping[str, Runtime] = {
+    # REAL (tables 28 and 29); ABS and the conversions
+    "ABS": Runtime("abs", module=None),
+    "SQRT": _real("sqrt", faults=True),
+    "LN": _real("ln", faults=True),
+    "LOG": _real("log", faults=True),
+    "EXP": _real("exp"),
+    "SIN": _real("sin"),
+    "COS": _real("cos"),
+    "TAN": _real("tan"),
+    "ASIN": _real("asin", faults=True),
+    "ACOS": _real("acos", faults=True),
+    "ATAN": _real("atan"),
+    "ATAN2": _real("atan2"),
+    "EXPT": _real("pow", faults=True),
+    "int_pow": Runtime("int_pow", faults=True),
+    "real_to_int": Runtime("real_to_int", faults=True),
+    "real_trunc": Runtime("real_trunc", faults=True),
+    # strings (table 34) and their conversions
+    "cut": Runtime("str_cut", "strings"),
+    "LEN": Runtime("len", module=None),
+    "LEFT": Runtime("str_left", "strings"),
+    "RIGHT": Runtime("str_right", "strings"),
+    "MID": Runtime("str_mid", "strings"),
+    "CONCAT": Runtime("str_concat", "strings"),
+    "INSERT": Runtime("str_insert", "strings"),
+    "DELETE": Runtime("str_delete", "strings"),
+    "REPLACE": Runtime("str_replace", "strings"),
+    "FIND": Runtime("str_find", "strings"),
+    "int_to_str": Runtime("int_to_str", "strings"),
+    "real_to_str": Runtime("real_to_str", "strings"),
+    "bool_to_str": Runtime("bool_to_str", "strings"),
+    "time_to_str": Runtime("time_to_str", "strings"),
+    "str_to_int": Runtime("str_to_int", "strings", faults=True),
+    "str_to_real": Runtime("str_to_real", "strings", faults=True, rounds=True),
+    "str_to_bool": Runtime("str_to_bool", "strings", faults=True),
+    "str_to_time": Runtime("str_to_time", "strings", faults=True),
+}

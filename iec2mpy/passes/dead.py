@@ -1,0 +1,62 @@
+"""Dead code: statements that can never run, branches that are never taken, locals that nobody reads."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+from iec2mpy.ir import nodes as n
+from iec2mpy.ir.intrinsics import INTRINSICS
+from iec2mpy.ir.walk import expressions, map_block, parts, statements
+
+
+def remove_dead(body: n.Body) -> n.Body:
+    """The body without what has no effect. A value that may fault counts as an effect."""
+    block = _cut(map_block(body.block, _reduce))
+    while True:
+        reads = Counter(
+            e.number for s in statements(block) for e in expressions(s) if isinstance(e, n.Local)
+        )
+        smaller = map_block(block, lambda s: () if _is_unread(s, reads) else (s,))
+        if smaller == block:
+            return replace(body, block=block)
+        block = smaller
+
+
+def _reduce(statement: n.Stmt) -> n.Block:
+    match statement:
+        case n.If(n.Const() as condition, then, otherwise):
+            return _cut(then if condition.value else otherwise)
+        case n.If(condition, then, otherwise):
+            then, otherwise = _cut(then), _cut(otherwise)
+            if not _has_code(then) and not _has_code(otherwise) and not _may_fault(condition):
+                return ()
+            return (n.If(condition, then, otherwise),)
+        case n.While(n.Const() as condition) if not condition.value:
+            return ()
+        case n.While(condition, body):
+            return (n.While(condition, _cut(body)),)
+        case n.Guard(n.Const() as condition) if not condition.value:
+            return ()
+        case _:
+            return (statement,)
+
+
+def _cut(block: n.Block) -> n.Block:
+    """The block up to the first statement that leaves it."""
+    for position, statement in enumerate(block):
+        if isinstance(statement, (n.Return, n.Break, n.Next)):
+            return block[: position + 1]
+    return block
+
+
+def _is_unread(statement: n.Stmt, reads: Counter[int]) -> bool:
+    return isinstance(statement, n.SetLocal) and not reads[statement.local.number] and not _may_fault(statement.value)
+
+
+def _may_fault(expr: n.Expr) -> bool:
+    return any(isinstance(part, n.Intrinsic) and INTRINSICS[part.name].faults for part in parts(expr))
+
+
+def _has_code(block: n.Block) -> bool:
+    return any(not isinstance(s, n.Line) for s in block)

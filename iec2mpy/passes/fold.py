@@ -1,0 +1,69 @@
+"""Constant folding: what is known at compile time is not worked out at run time."""
+
+from __future__ import annotations
+
+from iec2mpy.ir import nodes as n
+from iec2mpy.ir.walk import map_body
+from iec2mpy.semantics import arithmetic
+from iec2mpy.semantics import types as ty
+
+_OPERATORS = {
+    **{"add": "+", "sub": "-", "mul": "*", "div": "/", "mod": "MOD", "and": "AND", "or": "OR", "xor": "XOR"},
+    **{"eq": "=", "ne": "<>", "lt": "<", "gt": ">", "le": "<=", "ge": ">="},
+}
+
+
+def fold(body: n.Body) -> n.Body:
+    """The body with constant expressions worked out, and operations that change nothing left out."""
+    return map_body(body, _fold)
+
+
+def _fold(expr: n.Expr) -> n.Expr:
+    match expr:
+        case n.Wrap(n.Const() as operand, ty.ElementaryType() as to):
+            return n.Const(arithmetic.wrap(operand.number, to), to)
+        case n.ToReal(n.Const() as operand, to):
+            return n.Const(arithmetic.to_single(float(operand.number)), to)
+        case n.Not(n.Const() as operand, ty.ElementaryType() as to):
+            return n.Const(arithmetic.wrap(~operand.number, to), to)
+        case n.Not(n.Not(operand)):
+            return operand
+        case n.Select(n.Const() as condition, then, otherwise):
+            return then if condition.value else otherwise
+        case n.Op(name, n.Const() as left, n.Const() as right) if name in _OPERATORS:
+            return _operation(expr, left, right)
+        case n.Op(name, left, right):
+            return _identity(expr, name, left, right)
+        case _:
+            return expr
+
+
+def _operation(expr: n.Op, left: n.Const, right: n.Const) -> n.Expr:
+    """Exact for integers, as `Wrap` is a node of its own; the meaning of all else is `arithmetic`'s."""
+    if expr.name in n.ARITHMETIC and expr.type is not ty.REAL:
+        exact = {"add": left.number + right.number, "sub": left.number - right.number, "mul": left.number * right.number}
+        return n.Const(exact[expr.name], expr.type)
+    try:
+        value = arithmetic.binary(_OPERATORS[expr.name], left.value, right.value, left.type, right.type)
+    except arithmetic.ArithmeticFault:
+        # it faults where it stands, when it is reached
+        return expr
+    return n.Const(value, expr.type)
+
+
+def _identity(expr: n.Op, name: str, left: n.Expr, right: n.Expr) -> n.Expr:
+    """x + 0, x * 1, b AND TRUE and their like; not of REAL, where x + 0.0 is not always x."""
+    if isinstance(expr.type, ty.StringType) or expr.type is ty.REAL or left.type is ty.REAL:
+        return expr
+    if isinstance(left, n.Const) and name in ("add", "mul", "and", "or", "xor"):
+        left, right = right, left
+    if not isinstance(right, n.Const):
+        return expr
+    value, ones = right.value, expr.type.high
+    if value == 0 and name in ("add", "sub", "or", "xor", "shl", "shr") or value == 1 and name in ("mul", "div"):
+        return left
+    if value == 0 and name in ("and", "mul"):
+        return n.Const(0, expr.type)
+    if value == ones and name == "and":
+        return left
+    return expr
