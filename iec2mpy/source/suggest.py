@@ -1,4 +1,4 @@
-"""\"Did you mean …?\": the known name that is nearest to a misspelt one."""
+"""Finds the name that was probably meant."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ from difflib import get_close_matches
 
 
 def suggest(name: str, candidates: Iterable[str]) -> str | None:
-    """The candidate most like `name`, as it is spelt there, or None where none is near. Letter case does not count."""
-    spelt = {candidate.casefold(): candidate for candidate in candidates}
-    nearest = get_close_matches(name.casefold(), spelt, n=1, cutoff=0.7)
-    return spelt[nearest[0]] if nearest else None
+    """The candidate that is most like `name`, in its own spelling, or None where none is near. Letter case is ignored."""
+    by_key: dict[str, str] = {}
+    for candidate in candidates:
+        by_key.setdefault(candidate.casefold(), candidate)
+    found = get_close_matches(name.casefold(), by_key, n=1, cutoff=0.7)
+    return by_key[found[0]] if found else None

@@ -373,7 +373,7 @@ class Repeat:
     """`count(value, …)` inside an array's initial value; an empty `values` means the default value."""
 
     count: Expr
-    values: tuple[Initial, ...]
+    values: tuple[Initial | Repeat, ...]
     span: Span
 
 

@@ -1,0 +1,312 @@
+"""Actions of the rules for types, variables and configurations (6.4 to 6.8)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from iec2mpy.source.diagnostics import Diagnostics
+from iec2mpy.syntax import tree
+from iec2mpy.syntax.actions import action, name_of, not_supported, over
+from iec2mpy.syntax.tokens import Token
+
+# --------------------------------------------------------------------------------------------------- types
+
+
+@action
+def identifier(values: list[Any], _diagnostics: Diagnostics) -> tree.Name:
+    return name_of(values[0])
+
+
+@action
+def qualified(values: list[Any], _diagnostics: Diagnostics) -> tree.Name:
+    base, _, token = values
+    return tree.Name(f"{base.text}.{token.text}", over(base, token))
+
+
+@action
+def named_type(values: list[Any], _diagnostics: Diagnostics) -> tree.NamedTypeSpec:
+    return tree.NamedTypeSpec(values[0], values[0].span)
+
+
+def _is_wide(token: Token) -> bool:
+    return token.text.upper() == "WSTRING"
+
+
+@action
+def string(values: list[Any], _diagnostics: Diagnostics) -> tree.StringSpec:
+    return tree.StringSpec(_is_wide(values[0]), None, values[0].span)
+
+
+@action
+def sized_string(values: list[Any], _diagnostics: Diagnostics) -> tree.StringSpec:
+    word, _, length, closing = values
+    return tree.StringSpec(_is_wide(word), length, over(word, closing))
+
+
+@action
+def subrange(values: list[Any], _diagnostics: Diagnostics) -> tree.SubrangeSpec:
+    base, _, low, _, high, closing = values
+    return tree.SubrangeSpec(base, low, high, over(base, closing))
+
+
+@action
+def based_enum(values: list[Any], _diagnostics: Diagnostics) -> tree.EnumSpec:
+    base, _, items, closing = values
+    return tree.EnumSpec(base, tuple(items), over(base, closing))
+
+
+@action
+def enum(values: list[Any], _diagnostics: Diagnostics) -> tree.EnumSpec:
+    opening, items, closing = values
+    return tree.EnumSpec(None, tuple(items), over(opening, closing))
+
+
+@action
+def plain_item(values: list[Any], _diagnostics: Diagnostics) -> tree.EnumItem:
+    return tree.EnumItem(name_of(values[0]), None, values[0].span)
+
+
+@action
+def enum_item(values: list[Any], _diagnostics: Diagnostics) -> tree.EnumItem:
+    token, _, value = values
+    return tree.EnumItem(name_of(token), value, over(token, value))
+
+
+@action
+def array(values: list[Any], _diagnostics: Diagnostics) -> tree.ArraySpec:
+    word, _, bounds, _, _, element = values
+    return tree.ArraySpec(tuple(bounds), element, over(word, element))
+
+
+@action
+def bound(values: list[Any], _diagnostics: Diagnostics) -> tree.ArrayBound:
+    low, _, high = values
+    return tree.ArrayBound(low, high, over(low, high))
+
+
+@action
+def open_bound(values: list[Any], diagnostics: Diagnostics) -> tree.ArrayBound:
+    not_supported("E0911", "Arrays of variable length (`ARRAY[*]`) are", values[0].span, diagnostics)
+    return tree.ArrayBound(None, None, values[0].span)
+
+
+@action
+def struct(values: list[Any], _diagnostics: Diagnostics) -> tree.StructSpec:
+    word, fields, end = values
+    return tree.StructSpec(tuple(fields), over(word, end))
+
+
+@action
+def overlapping_struct(values: list[Any], diagnostics: Diagnostics) -> tree.StructSpec:
+    word, overlap, fields, end = values
+    not_supported("E0910", "OVERLAP is", overlap.span, diagnostics)
+    return tree.StructSpec(tuple(fields), over(word, end))
+
+
+@action
+def field(values: list[Any], _diagnostics: Diagnostics) -> tree.StructField:
+    names, _, type_spec, initial, end = values
+    return tree.StructField(tuple(names), type_spec, initial, over(names[0], initial or type_spec or end))
+
+
+@action
+def located_field(values: list[Any], diagnostics: Diagnostics) -> tree.StructField:
+    names, at, location, _, type_spec, initial, _ = values
+    if location is not None:
+        not_supported("E0910", "An address (`AT`) of a structure's member is", at.span, diagnostics)
+    return tree.StructField(tuple(names), type_spec, initial, over(names[0], initial or type_spec))
+
+
+@action
+def reference_type(values: list[Any], diagnostics: Diagnostics) -> tree.TypeSpec:
+    not_supported("E0906", "References (`REF_TO`) are", values[0].span, diagnostics)
+    return values[1]
+
+
+@action
+def error_type(values: list[Any], _diagnostics: Diagnostics) -> tree.TypeSpec:
+    """In place of a type that could not be read."""
+    return tree.NamedTypeSpec(tree.Name("INT", values[0].span), values[0].span)
+
+
+@action
+def one_name(values: list[Any], _diagnostics: Diagnostics) -> list[tree.Name]:
+    return [name_of(values[0])]
+
+
+@action
+def further_name(values: list[Any], _diagnostics: Diagnostics) -> list[tree.Name]:
+    names, _, token = values
+    names.append(name_of(token))
+    return names
+
+
+# ------------------------------------------------------------------------------------------- initial values
+
+
+@action
+def array_initial(values: list[Any], _diagnostics: Diagnostics) -> tree.ArrayInitial:
+    opening, items, closing = values
+    return tree.ArrayInitial(tuple(items), over(opening, closing))
+
+
+@action
+def repeat(values: list[Any], _diagnostics: Diagnostics) -> tree.Repeat:
+    """`3(0)`, `3()` (6.4.4.5.2)."""
+    count, closing = values[0], values[-1]
+    repeated = values[2] if len(values) == 4 else []
+    return tree.Repeat(count.value, tuple(repeated), over(count, closing))
+
+
+@action
+def repeated_struct(values: list[Any], _diagnostics: Diagnostics) -> tree.Repeat:
+    """`50(PT := T#1s)`: the brackets are those of the repetition and of the structure at once (6.6.3.4)."""
+    count, opening, fields, closing = values
+    return tree.Repeat(count.value, (tree.StructInitial(tuple(fields), over(opening, closing)),), over(count, closing))
+
+
+@action
+def struct_initial(values: list[Any], _diagnostics: Diagnostics) -> tree.StructInitial:
+    opening, fields, closing = values
+    return tree.StructInitial(tuple(fields), over(opening, closing))
+
+
+@action
+def field_value(values: list[Any], _diagnostics: Diagnostics) -> tree.FieldInitial:
+    token, _, value = values
+    return tree.FieldInitial(name_of(token), value, over(token, value))
+
+
+@action
+def type_block(values: list[Any], diagnostics: Diagnostics) -> list[tree.TypeDecl]:
+    word, declarations, end = values
+    if not declarations and not diagnostics.has_errors:
+        diagnostics.add("E0119", "This TYPE declares nothing.", over(word, end), "Such as `Speed : INT;`.")
+    return declarations
+
+
+@action
+def type_declaration(values: list[Any], _diagnostics: Diagnostics) -> tree.TypeDecl:
+    token, _, type_spec, initial, _ = values
+    return tree.TypeDecl(name_of(token), type_spec, initial, over(token, initial or type_spec))
+
+
+# ----------------------------------------------------------------------------------------------- variables
+
+
+@action
+def section(values: list[Any], diagnostics: Diagnostics) -> tree.VarSection:
+    word, qualifiers, variables, end = values
+    kind = tree.Section(word.type)
+    retention: tree.Retention | None = None
+    for token in qualifiers:
+        if token.type == "ACCESS":
+            not_supported("E0904", f"Access specifiers (`{token.text}`) are", token.span, diagnostics)
+        elif token.type != "CONSTANT":
+            retention = tree.Retention(token.type)
+    if kind in (tree.Section.INPUT, tree.Section.OUTPUT):
+        for declared in (declared for variable in variables for declared in variable.names if declared.key in ("en", "eno")):
+            not_supported("E0912", f"`{declared.text}` (6.6.1.6) is", declared.span, diagnostics)
+    constant = any(token.type == "CONSTANT" for token in qualifiers)
+    return tree.VarSection(kind, constant, retention, tuple(variables), over(word, end))
+
+
+@action
+def variable(values: list[Any], _diagnostics: Diagnostics) -> tree.VarDecl:
+    names, _, type_spec, initial, _ = values
+    return tree.VarDecl(tuple(names), None, type_spec, initial, over(names[0], initial or type_spec))
+
+
+@action
+def edge_variable(values: list[Any], diagnostics: Diagnostics) -> tree.VarDecl:
+    names, _, type_spec, edge, _ = values
+    not_supported("E0909", f"Inputs with an edge (`{edge.text}`) are", edge.span, diagnostics)
+    return tree.VarDecl(tuple(names), None, type_spec, None, over(names[0], edge))
+
+
+@action
+def located_variable(values: list[Any], _diagnostics: Diagnostics) -> tree.VarDecl:
+    names, _, location, _, type_spec, initial, _ = values
+    return tree.VarDecl(tuple(names), location, type_spec, initial, over(names[0], initial or type_spec))
+
+
+@action
+def nameless_variable(values: list[Any], _diagnostics: Diagnostics) -> tree.VarDecl:
+    word, location, _, type_spec, initial, _ = values
+    return tree.VarDecl((), location, type_spec, initial, over(word, initial or type_spec))
+
+
+# ------------------------------------------------------------------------------------------ configurations
+
+
+@action
+def configuration(values: list[Any], _diagnostics: Diagnostics) -> tree.ConfigurationDecl:
+    word, token, items, end = values
+    resources = tuple(item for item in items if isinstance(item, tree.ResourceDecl))
+    own = _members([item for item in items if not isinstance(item, tree.ResourceDecl)])
+    sections, tasks, programs = own
+    if tasks or programs:  # 6.8.1: the name of the only resource can be left out
+        everything = (*tasks, *programs)
+        first = min(everything, key=lambda item: item.span.start)
+        last = max(everything, key=lambda item: item.span.end)
+        resources = (tree.ResourceDecl(None, None, (), tasks, programs, over(first, last)), *resources)
+    return tree.ConfigurationDecl(name_of(token), sections, resources, over(word, end))
+
+
+def _members(
+    items: list[Any],
+) -> tuple[tuple[tree.VarSection, ...], tuple[tree.TaskDecl, ...], tuple[tree.ProgramDecl, ...]]:
+    return (
+        tuple(item for item in items if isinstance(item, tree.VarSection)),
+        tuple(item for item in items if isinstance(item, tree.TaskDecl)),
+        tuple(item for item in items if isinstance(item, tree.ProgramDecl)),
+    )
+
+
+@action
+def resource(values: list[Any], _diagnostics: Diagnostics) -> tree.ResourceDecl:
+    word, token, _, type_token, items, end = values
+    sections, tasks, programs = _members(items)
+    return tree.ResourceDecl(name_of(token), name_of(type_token), sections, tasks, programs, over(word, end))
+
+
+@action
+def task(values: list[Any], diagnostics: Diagnostics) -> tree.TaskDecl:
+    word, token, _, arguments, closing, _ = values
+    span = over(word, closing)
+    if not any(argument.name is not None and argument.name.key == "priority" for argument in arguments):
+        # the grammar of table 63 has SINGLE and INTERVAL as optional, and PRIORITY not
+        diagnostics.add("E0123", f"The task `{token.text}` has no PRIORITY.", span, "Write `PRIORITY := 1`; 0 is the most urgent.")
+    return tree.TaskDecl(name_of(token), tuple(arguments), span)
+
+
+@action
+def program(values: list[Any], _diagnostics: Diagnostics) -> tree.ProgramDecl:
+    word, retention, token, task_name, _, type_name, *rest = values
+    connections = rest[1] if len(rest) == 4 else []
+    return tree.ProgramDecl(
+        name_of(token),
+        tree.Retention(retention.type) if retention else None,
+        name_of(task_name) if task_name else None,
+        type_name,
+        tuple(connections),
+        over(word, rest[-2] if len(rest) == 4 else type_name),
+    )
+
+
+@action
+def connection_input(values: list[Any], _diagnostics: Diagnostics) -> tree.Argument:
+    target, _, value = values
+    return tree.Argument(target, value, False, False, over(target, value))
+
+
+@action
+def connection_output(values: list[Any], _diagnostics: Diagnostics) -> tree.Argument:
+    target, _, value = values
+    return tree.Argument(target, value, True, False, over(target, value))
+
+
+@action
+def block_task(values: list[Any], diagnostics: Diagnostics) -> None:
+    block, _, token = values
+    not_supported("E0913", f"A task for a single block (`{block.text} WITH {token.text}`) is", over(block, token), diagnostics)

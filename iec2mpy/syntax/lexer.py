@@ -1,0 +1,232 @@
+"""The lexer: text to tokens, by one regular expression (6.1, 6.3).
+
+Comments, pragmas and white space yield no tokens. What cannot be read is reported here, once, and its token is marked
+`bad`, so that no parser complains about it again.
+"""
+
+from __future__ import annotations
+
+import re
+
+from iec2mpy.source.diagnostics import Diagnostics
+from iec2mpy.source.spans import SourceFile, Span
+from iec2mpy.syntax import literals
+from iec2mpy.syntax.keywords import KEYWORDS
+from iec2mpy.syntax.tokens import Token
+from iec2mpy.syntax.tree import Literal
+
+_TOKEN = re.compile(
+    r"""[ \t\r\n\f\v\u00a0\ufeff]*(?:
+    (?P<typed>[A-Za-z_]\w*\#)
+  | (?P<name>[^\W\d]\w*)
+  | (?P<comment>//|\(\*|/\*)
+  | (?P<symbol>:=|:[ \t]+=|=>|\?=|<>|<=|>=|\*\*|\.\.|==|!=|&&|\|\||\+=|-=|\*=|/=|[;:,()\[\].=<>+\-*/&^?!|])
+  | (?P<based>\d+\#[+-]?\w*)
+  | (?P<number>\d\w*(?:\.\d\w*(?:(?<=[eE])[+-]\d\w*)?)?)
+  | (?P<string>['"])
+  | (?P<percent>%(?:[IQMiqm][XBWDLxbwdl]?\*(?!\))|(?:[A-Za-z]\w*|\d+)?(?:\.\d+)*))
+  | (?P<pragma>\{)
+  | (?P<other>.)
+  | (?P<end>\Z)
+    )""",
+    re.VERBOSE,
+)
+
+SYMBOLS = {
+    ":=": "ASSIGN", "=>": "ARROW", "?=": "TRY_ASSIGN", "<>": "NE", "<=": "LE", ">=": "GE", "**": "POWER", "..": "RANGE",
+    ";": "SEMICOLON", ":": "COLON", ",": "COMMA", "(": "LPAR", ")": "RPAR", "[": "LSQB", "]": "RSQB", ".": "DOT",
+    "=": "EQ", "<": "LT", ">": "GT", "+": "PLUS", "-": "MINUS", "*": "TIMES", "/": "DIVIDE", "&": "AND", "^": "CARET",
+    "?": "QUESTION",
+}  # fmt: skip
+
+_FOREIGN_SYMBOLS = {
+    "==": ("EQ", "`=`"), "!=": ("NE", "`<>`"), "&&": ("AND", "`AND`"), "||": ("OR", "`OR`"), "!": ("NOT", "`NOT`"),
+    "|": ("OR", "`OR`"), "%": ("MOD", "`MOD`"),
+}  # fmt: skip
+"""Operators of C and its like: what they are read as, and what to write instead."""
+
+_COMPOUND_ASSIGNMENTS = {"+=", "-=", "*=", "/="}
+
+_COMMENT_MARKS = {"(*": ("*)", re.compile(r"\(\*|\*\)")), "/*": ("*/", re.compile(r"/\*|\*/"))}
+_DRAWN = re.compile(r"\{\s*(LD|FBD)\s*\}", re.IGNORECASE)
+_DRAWN_END = re.compile(r"^[ \t]*END_(?:PROGRAM|FUNCTION|FUNCTION_BLOCK|METHOD|ACTION|TRANSITION)\b", re.I | re.M)
+_DIRECT = re.compile(r"%([IQM])([XBWDL]?)(\d+(?:\.\d+)*)\Z", re.IGNORECASE)
+_PART = re.compile(r"%(?:[XBWDL]?\d+|[XBWDL]\d+\.\d+)\Z", re.IGNORECASE)
+_PARTIAL_DIRECT = re.compile(r"%[IQM][XBWDL]?\*\Z", re.IGNORECASE)
+
+
+def tokenize(file: SourceFile, diagnostics: Diagnostics) -> list[Token]:
+    """All tokens of a file; the last one has the type `$END`."""
+    tokens: list[Token] = []
+    append = tokens.append
+    text = file.text
+    match = _TOKEN.match
+    keyword = KEYWORDS.get
+    symbol_type = SYMBOLS.get
+    at = 0
+    cut_off = False  # by a comment that is never closed: what is missing at the end is not the program's fault
+    while True:
+        found = match(text, at)
+        assert found is not None  # `other` takes any character, `end` the end
+        kind = found.lastgroup
+        assert kind is not None
+        start, at = found.span(kind)
+        piece = text[start:at]
+        if kind == "name":
+            token_type = keyword(piece.upper(), "NAME")
+            if token_type == "NAME":
+                bad = ("_" in piece or not piece.isascii()) and _check_name(piece, Span(file, start, at), diagnostics)
+                append(Token("NAME", piece, start, at, file, None, bad))
+            elif token_type == "LITERAL":
+                value = Literal("bool", piece.upper() == "TRUE", None, Span(file, start, at))
+                append(Token(token_type, piece, start, at, file, value))
+            else:
+                append(Token(token_type, piece, start, at, file))
+        elif kind == "symbol":
+            token_type = symbol_type(piece)
+            if token_type is None:
+                append(_foreign_symbol(file, start, at, diagnostics))
+            else:
+                append(Token(token_type, piece, start, at, file))
+        elif kind == "end":
+            append(Token("$END", "", len(text), len(text), file, None, cut_off))
+            return tokens
+        elif kind == "comment":
+            at, closed = _skip_comment(file, start, piece, diagnostics)
+            cut_off = cut_off or not closed
+        else:
+            token, at = _OTHERS[kind](file, start, at, diagnostics)
+            if token is not None:
+                append(token)
+            elif at == len(text):
+                cut_off = text[at - 1] != "}"
+
+
+def _check_name(name: str, span: Span, diagnostics: Diagnostics) -> bool:
+    """Whether something is wrong with the form of a name (6.1.2, table 2)."""
+    if not name.isascii():
+        foreign = next(character for character in name if not character.isascii())
+        diagnostics.add(
+            "E0105",
+            f"`{foreign}` cannot stand in a name: names have the letters A to Z, digits and `_`.",
+            span,
+            "Accents and other alphabets can be used in comments and strings.",
+        )
+    elif "__" in name or name == "_":
+        diagnostics.add("E0105", f"The name `{name}` has two `_` in a row, or nothing else; one between letters is allowed.", span)
+    elif name.endswith("_"):
+        diagnostics.add("E0105", f"The name `{name}` ends with `_`.", span, f"Write `{name.rstrip('_')}`.")
+    else:
+        return False
+    return True
+
+
+def _foreign_symbol(file: SourceFile, start: int, end: int, diagnostics: Diagnostics) -> Token:
+    text = file.text[start:end]
+    span = Span(file, start, end)
+    if text in _COMPOUND_ASSIGNMENTS:
+        diagnostics.add(
+            "E0118", f"`{text}` is not an operator of this language.", span, f"Write `x := x {text[0]} …`, with the name twice."
+        )
+        return Token("UNKNOWN", text, start, end, file, None, True)
+    if text.startswith(":"):
+        diagnostics.add("E0117", "`:=` is written without a space.", span)
+        return Token("ASSIGN", text, start, end, file)
+    token_type, instead = _FOREIGN_SYMBOLS[text]
+    diagnostics.add("E0118", f"`{text}` is not an operator of this language.", span, f"Write {instead}.")
+    return Token(token_type, text, start, end, file)
+
+
+def _skip_comment(file: SourceFile, start: int, mark: str, diagnostics: Diagnostics) -> tuple[int, bool]:
+    """The offset behind a comment, and whether it is closed. Both bracket forms nest (6.1.5, table 3)."""
+    text = file.text
+    if mark == "//":
+        end = text.find("\n", start)
+        return (len(text) if end < 0 else end), True
+    closing, marks = _COMMENT_MARKS[mark]
+    depth = 0
+    for found in marks.finditer(text, start):
+        depth += 1 if found.group() == mark else -1
+        if depth == 0:
+            return found.end(), True
+    diagnostics.add(
+        "E0102",
+        f"This comment is never closed: `{closing}` is missing.",
+        Span(file, start, start + 2),
+        "Comments can be nested: each one needs its own end." if depth > 1 or text.find(closing, start) >= 0 else None,
+    )
+    return len(text), False
+
+
+def _typed(file: SourceFile, start: int, end: int, diagnostics: Diagnostics) -> tuple[Token | None, int]:
+    """A literal with a prefix (`INT#5`, `T#1s`), or a qualified enumerated value (`Colour#red`)."""
+    return literals.read_prefixed(file, start, end, diagnostics)
+
+
+def _based(file: SourceFile, start: int, end: int, diagnostics: Diagnostics) -> tuple[Token | None, int]:
+    return literals.read_based(file, start, end, diagnostics), end
+
+
+def _number(file: SourceFile, start: int, end: int, diagnostics: Diagnostics) -> tuple[Token | None, int]:
+    return literals.read_number(file, start, end, diagnostics), end
+
+
+def _string(file: SourceFile, start: int, end: int, diagnostics: Diagnostics) -> tuple[Token | None, int]:
+    token = literals.read_string(file, start, start, None, diagnostics)
+    return token, token.end
+
+
+def _percent(file: SourceFile, start: int, end: int, diagnostics: Diagnostics) -> tuple[Token | None, int]:
+    """`%IX0.0` (table 16), `%X3` behind a dot (table 17), `%I*` (table 16), `%X3.0` in a structure, or a C operator."""
+    text = file.text[start:end]
+    if _DIRECT.match(text):
+        return Token("DIRECT", text, start, end, file), end
+    if _PART.match(text):
+        return Token("PART", text, start, end, file), end
+    if _PARTIAL_DIRECT.match(text):
+        return Token("PARTIAL_DIRECT", text, start, end, file), end
+    if text == "%":
+        return _foreign_symbol(file, start, end, diagnostics), end
+    span = Span(file, start, end)
+    hint = "An address is written `%IX0.0`, `%QW3`, `%MD8`: I, Q or M; X, B, W, D or L; then numbers."
+    if text[1:2].upper() not in ("I", "Q", "M", *"XBWDL"):
+        message = f"`{text}` is no address: the letter behind `%` is I (input), Q (output) or M (memory)."
+    elif not any(character.isdigit() for character in text):
+        message = f"The number is missing in the address `{text}`."
+    else:
+        message = f"`{text}` is no address of the form `%IX0.0`."
+    diagnostics.add("E0111", message, span, hint)
+    return Token("DIRECT", text, start, end, file, None, True), end
+
+
+def _pragma(file: SourceFile, start: int, _end: int, diagnostics: Diagnostics) -> tuple[Token | None, int]:
+    """Pragmas are skipped (6.2); `{LD}` and `{FBD}` make one token with all of the drawing."""
+    drawn = _DRAWN.match(file.text, start)
+    if drawn:
+        stop = _DRAWN_END.search(file.text, drawn.end())
+        end = stop.start() if stop else len(file.text)
+        return Token("DRAWING", drawn.group(1).upper(), start, end, file), end
+    end = file.text.find("}", start)
+    if end < 0:
+        diagnostics.add("E0104", "This pragma is never closed: `}` is missing.", Span(file, start, start + 1))
+        return None, len(file.text)
+    return None, end + 1
+
+
+def _other(file: SourceFile, start: int, end: int, diagnostics: Diagnostics) -> tuple[Token | None, int]:
+    character = file.text[start]
+    shown = f"`{character}`" if character.isprintable() else f"The character U+{ord(character):04X}"
+    hint = {"‘": "Strings are written with `'`.", "’": "Strings are written with `'`.", "“": 'Write `"`.', "”": 'Write `"`.'}
+    diagnostics.add("E0101", f"{shown} has no meaning in a program.", Span(file, start, end), hint.get(character))
+    return Token("UNKNOWN", character, start, end, file, None, True), end
+
+
+_OTHERS = {
+    "typed": _typed,
+    "based": _based,
+    "number": _number,
+    "string": _string,
+    "percent": _percent,
+    "pragma": _pragma,
+    "other": _other,
+}
