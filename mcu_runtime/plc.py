@@ -3,6 +3,8 @@
 Goes into a deployed folder, beside the program that it runs. It never prints.
 """
 
+import os
+
 import board
 import machine
 import program
@@ -16,10 +18,17 @@ from mcu_runtime.process_image import ProcessImage
 
 _COLLECT_EVERY_US = 1_000_000
 
+
+def _folder():
+    """Where this file is, also after a change of the current directory."""
+    folder = __file__.rpartition("/")[0]
+    return folder if folder.startswith("/") else os.getcwd().rstrip("/") + "/" + folder
+
+
 # MicroPython for Linux has no pins: the program runs there on what is written to its variables.
 _io = ProcessImage(board.CHANNELS if hasattr(machine, "Pin") else (), machine)
 _controller = Controller(program, _io, RealClock())
-_names = Names((__file__.rpartition("/")[0] or ".") + "/program.names")
+_names = Names(_folder() + "/program.names")
 _background = background(machine)
 _running = False
 _early = 0

@@ -87,6 +87,16 @@ def real_to_str(x):
     return mantissa + "E" + exponent if e else mantissa
 
 
+def str_to_bool(s):
+    """A literal of BOOL: `TRUE`, `FALSE`, `1`, `0`, in any letter case."""
+    text = s.strip().upper()
+    if text in ("TRUE", "1"):
+        return 1
+    if text in ("FALSE", "0"):
+        return 0
+    raise RANGE
+
+
 def str_to_int(s, low, high):
     """A literal of an integer, also with a base (`16#FF`) and single underlines."""
     negative, text = _sign(s.strip())

@@ -18,7 +18,7 @@ _MEANINGS: Mapping[str, str] = {
     "recursion": "recursion: a call came back to a block or function that was still running",
     "memory": "memory: there is no memory left",
 }
-"""What each kind of fault means; each starts with the word that case files look for."""
+"""What each kind of fault means."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,10 +31,15 @@ class Fault:
     pou: str
 
     @property
+    def text(self) -> str:
+        """What happened, without the place: `zero: a division by zero`. Case files look for a part of it."""
+        return _MEANINGS.get(self.kind, self.kind)
+
+    @property
     def message(self) -> str:
-        """A sentence that names the kind and the place, such as `zero: a division by zero (main.st, line 4, in main)`."""
+        """What happened and where, such as `zero: a division by zero (main.st, line 4, in main)`."""
         place = f" ({self.file}, line {self.line}, in {self.pou})" if self.line else ""
-        return f"{_MEANINGS.get(self.kind, self.kind)}{place}"
+        return f"{self.text}{place}"
 
 
 class Simulation:

@@ -15,6 +15,7 @@ from mcu_runtime.strings import (
     str_mid,
     str_replace,
     str_right,
+    str_to_bool,
     str_to_int,
     str_to_real,
     str_to_time,
@@ -63,6 +64,12 @@ def test_numbers_to_text():
     assert int_to_str(-12) == "-12"
     assert bool_to_str(1) == "TRUE"
     assert bool_to_str(0) == "FALSE"
+
+
+def test_text_to_bool():
+    assert [str_to_bool(s) for s in ("TRUE", " true ", "1", "False", "0")] == [1, 1, 1, 0, 0]
+    for bad in ("", "yes", "2", "TRUE1"):
+        raises(RANGE, str_to_bool, bad)
 
 
 def test_text_to_int():
