@@ -36,9 +36,9 @@ class TimerBackground:
 
     def _new_timer(self):
         try:
-            return self._machine.Timer(-1)  # RP2 has only virtual timers
+            return self._machine.Timer(0)  # on ESP32 a virtual timer ticks every 10 ms, or there is none
         except ValueError:
-            return self._machine.Timer(0)  # ESP32 has only hardware timers
+            return self._machine.Timer(-1)  # RP2 has only virtual timers, which count microseconds
 
     def stop(self):
         if self._timer:

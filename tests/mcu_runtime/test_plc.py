@@ -298,10 +298,12 @@ def test_a_damaged_state_file_stops_nothing(host: str, board: Path) -> None:
 
 
 def test_a_real_ctrl_c_ends_run_and_gives_the_prompt(host: str, linux: Path) -> None:
-    script = "import sys\nsys.path[:0] = ['', 'plc-1']\nimport plc\nprint('here')\nplc.run()\nprint(plc.status()['fault'])\n"
+    script = "import sys\nsys.path[:0] = ['', 'plc-1']\nimport plc\n"
+    script += "print('here')\nplc.run()\nprint(plc.status()['fault'])\n"
     (linux / "script.py").write_text(script)
     command = [sys.executable, "-P", "-u"] if host == "cpython" else [find_micropython()]
-    with subprocess.Popen([*command, "script.py"], cwd=linux, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+    command.append("script.py")
+    with subprocess.Popen(command, cwd=linux, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert process.stdout and process.stderr
         assert process.stdout.readline() == b"here\n"
         time.sleep(0.1)

@@ -47,14 +47,14 @@ class PWM:
 
 
 class Timer:
-    """As on ESP32: only hardware timers."""
+    """As on RP2: only virtual timers."""
 
     PERIODIC = 1
     running = None
 
     def __init__(self, number):
-        if number < 0:
-            raise ValueError("invalid Timer number")
+        if number != -1:
+            raise ValueError("Timer doesn't exist")
 
     def init(self, mode, period, callback):
         self.period = period
