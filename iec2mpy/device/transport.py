@@ -27,6 +27,7 @@ from iec2mpy.device.errors import (
     PortForbidden,
     PortMissing,
 )
+from iec2mpy.device.ports import usb_ports
 
 _RAW_REPL = b"raw REPL; CTRL-B to exit\r\n"
 _PROMPT = b">>> "
@@ -212,10 +213,8 @@ def _why_not_open(port: str) -> PortError:
 
 
 def _ports_there() -> str:
-    from serial.tools import list_ports
-
-    names = [p.device for p in list_ports.comports()]
-    return f"The ports there are: {', '.join(names)}." if names else "This computer sees no serial port."
+    names = usb_ports()
+    return f"The ports there are: {', '.join(names)}." if names else "This computer sees no board on USB."
 
 
 def _enter_raw_repl(transport: SerialTransport, port: str) -> None:

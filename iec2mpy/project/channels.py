@@ -116,7 +116,7 @@ def _channel(
     diagnostics: Diagnostics,
 ) -> Channel | None:
     span = toml.key_span("channels", written)
-    table: Mapping[str, Any] = toml.data["channels"][written]
+    table = toml.data["channels"][written]
     if not isinstance(table, dict):
         diagnostics.add("E0833", f"`{written}` must be a table.", span, f'Write `[channels."{address}"]`.')
         return None

@@ -45,11 +45,14 @@ def _is_list_of(value: Any, kind: type) -> bool:
 def read_table(toml: TomlText, path: Sequence[str], schema: Schema, diagnostics: Diagnostics) -> dict[str, Any]:
     """The values of a table that are as `schema` says; what is not gets a diagnostic, and is left out.
 
-    `path` names the table (empty for the whole file); one that is missing is taken as empty.
+    `path` names the table (empty for the whole file). What is missing in a table that is missing itself is not told:
+    reading the table around it has told that.
     """
     table: Any = toml.data
     for name in path:
-        table = table.get(name, {}) if isinstance(table, dict) else {}
+        table = table.get(name) if isinstance(table, dict) else None
+    if not isinstance(table, dict):
+        return {}
     where = f"[{_shown(path)}]" if path else "the file"
     good: dict[str, Any] = {}
     for name, value in table.items():
