@@ -114,7 +114,12 @@ def negation(values: list[Any], diagnostics: Diagnostics) -> tree.UnaryExpr | tr
     operator, opening, arguments, closing = values
     span = over(operator, closing)
     if len(arguments) != 1:
-        diagnostics.add("E0126", f"NOT takes one value, here it has {len(arguments)}.", span, "Write NOT before each value, such as `NOT a AND NOT b`.")
+        diagnostics.add(
+            "E0126",
+            f"NOT takes one value, here it has {len(arguments)}.",
+            span,
+            "Write NOT before each value, such as `NOT a AND NOT b`.",
+        )
     if len(arguments) == 1 and arguments[0].name is None:
         return tree.UnaryExpr("NOT", replace(arguments[0].value, span=over(opening, closing)), span)
     return tree.CallExpr(tree.NameExpr(operator.text, operator.span), tuple(arguments), span)
@@ -137,7 +142,9 @@ def enumerated_value(values: list[Any], _diagnostics: Diagnostics) -> tree.Typed
     type_name, _, value = token.text.partition("#")
     middle = token.start + len(type_name)
     return tree.TypedEnumValue(
-        tree.Name(type_name, Span(token.file, token.start, middle)), tree.Name(value, Span(token.file, middle + 1, token.end)), token.span
+        tree.Name(type_name, Span(token.file, token.start, middle)),
+        tree.Name(value, Span(token.file, middle + 1, token.end)),
+        token.span,
     )
 
 
@@ -199,7 +206,12 @@ def part(values: list[Any], diagnostics: Diagnostics) -> tree.PartExpr:
     """`base.3`, `base.%X3`, `base.%W1` (6.5.5.3, table 17)."""
     base, _, token = values
     if "." in token.text:
-        diagnostics.add("E0111", f"`{token.text}` is no bit, byte or word of a variable.", token.span, "Such as `x.%X3`, `x.%B1`, `x.3`.")
+        diagnostics.add(
+            "E0111",
+            f"`{token.text}` is no bit, byte or word of a variable.",
+            token.span,
+            "Such as `x.%X3`, `x.%B1`, `x.3`.",
+        )
         return tree.PartExpr(base, "X", 0, over(base, token))
     if token.type == "INTEGER":
         return tree.PartExpr(base, "X", token.value.value, over(base, token))

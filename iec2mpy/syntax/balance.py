@@ -99,7 +99,12 @@ class _Balancer:
                 )  # fmt: skip
                 return None
             if len(self._blocks) > DEEPEST_BLOCK:
-                self._diagnostics.add("E0125", f"More than {DEEPEST_BLOCK} statements are nested here.", token.span, "Move inner ones into a function.")
+                self._diagnostics.add(
+                    "E0125",
+                    f"More than {DEEPEST_BLOCK} statements are nested here.",
+                    token.span,
+                    "Move inner ones into a function.",
+                )
                 return None
         return out
 
@@ -159,7 +164,9 @@ class _Balancer:
             opening = self._brackets.pop()
             self._depths.pop()
             closing = _BRACKETS[_CLOSING[opening.type]]
-            self._diagnostics.add("E0116", f"This `{opening.text}` is never closed: `{closing}` is missing.", opening.span)
+            self._diagnostics.add(
+                "E0116", f"This `{opening.text}` is never closed: `{closing}` is missing.", opening.span
+            )
             self._out.append(self._out[-1].inserted_after(_CLOSING[opening.type], closing))
 
     # -------------------------------------------------------------------------------------------- blocks
@@ -181,7 +188,9 @@ class _Balancer:
             )  # fmt: skip
             self._out.append(token.as_type(expected))
             return True
-        self._diagnostics.add("E0115", f"`{token.text}` closes nothing: no `{_OPENER_OF[token.type]}` is open here.", token.span)
+        self._diagnostics.add(
+            "E0115", f"`{token.text}` closes nothing: no `{_OPENER_OF[token.type]}` is open here.", token.span
+        )
         return False
 
     def _next_end(self, at: int) -> str | None:
@@ -215,9 +224,13 @@ class _Balancer:
         meant = MISSPELLINGS[token.text.upper()]
         at_start = not self._out or self._out[-1].type in _STATEMENT_BOUNDARY
         fits = following.type in (_OPERAND_START | {"LPAR", "SEMICOLON"}) or following.type in _BREAKS
-        if not (self._is_body and meant and at_start and fits) or (meant.startswith("END") and following.type == "LPAR"):
+        if not (self._is_body and meant and at_start and fits) or (
+            meant.startswith("END") and following.type == "LPAR"
+        ):
             return token.as_type("NAME")
-        self._diagnostics.add("E0127", f"`{token.text}` is not a word of this language.", token.span, f"Write `{meant}`.")
+        self._diagnostics.add(
+            "E0127", f"`{token.text}` is not a word of this language.", token.span, f"Write `{meant}`."
+        )
         return token.as_type(meant)
 
     def _misspelt_keyword(self, token: Token) -> Token:
@@ -227,7 +240,9 @@ class _Balancer:
         meant = suggest(token.text, (*BLOCK_ENDS, "ELSIF", "ELSE", "RETURN", "UNTIL"))
         if meant is None:
             return token
-        self._diagnostics.add("E0127", f"`{token.text}` is not a word of this language.", token.span, f"Did you mean `{meant}`?")
+        self._diagnostics.add(
+            "E0127", f"`{token.text}` is not a word of this language.", token.span, f"Did you mean `{meant}`?"
+        )
         return token.as_type(meant)
 
     def _keyword_as_name(self, token: Token) -> Token:

@@ -205,7 +205,9 @@ def section(values: list[Any], diagnostics: Diagnostics) -> tree.VarSection:
         elif token.type != "CONSTANT":
             retention = tree.Retention(token.type)
     if kind in (tree.Section.INPUT, tree.Section.OUTPUT):
-        for declared in (declared for variable in variables for declared in variable.names if declared.key in ("en", "eno")):
+        for declared in (
+            declared for variable in variables for declared in variable.names if declared.key in ("en", "eno")
+        ):
             not_supported("E0912", f"`{declared.text}` (6.6.1.6) is", declared.span, diagnostics)
     constant = any(token.type == "CONSTANT" for token in qualifiers)
     return tree.VarSection(kind, constant, retention, tuple(variables), over(word, end))
@@ -276,7 +278,9 @@ def task(values: list[Any], diagnostics: Diagnostics) -> tree.TaskDecl:
     span = over(word, closing)
     if not any(argument.name is not None and argument.name.key == "priority" for argument in arguments):
         # the grammar of table 63 has SINGLE and INTERVAL as optional, and PRIORITY not
-        diagnostics.add("E0123", f"The task `{token.text}` has no PRIORITY.", span, "Write `PRIORITY := 1`; 0 is the most urgent.")
+        diagnostics.add(
+            "E0123", f"The task `{token.text}` has no PRIORITY.", span, "Write `PRIORITY := 1`; 0 is the most urgent."
+        )
     return tree.TaskDecl(name_of(token), tuple(arguments), span)
 
 
@@ -309,4 +313,6 @@ def connection_output(values: list[Any], _diagnostics: Diagnostics) -> tree.Argu
 @action
 def block_task(values: list[Any], diagnostics: Diagnostics) -> None:
     block, _, token = values
-    not_supported("E0913", f"A task for a single block (`{block.text} WITH {token.text}`) is", over(block, token), diagnostics)
+    not_supported(
+        "E0913", f"A task for a single block (`{block.text} WITH {token.text}`) is", over(block, token), diagnostics
+    )

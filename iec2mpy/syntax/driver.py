@@ -130,7 +130,9 @@ class _Driver:
         return True
 
     def _expected(self) -> list[str]:
-        return [name for name in self._rows[self._states[-1]] if name.isupper() and name != "ERROR" and self.accepts(name)]
+        return [
+            name for name in self._rows[self._states[-1]] if name.isupper() and name != "ERROR" and self.accepts(name)
+        ]
 
     def _panic(self) -> bool:
         """Skip tokens, pop states, and put in what is missing, until a token can follow again."""

@@ -113,7 +113,9 @@ def _check_name(name: str, span: Span, diagnostics: Diagnostics) -> bool:
             "Accents and other alphabets can be used in comments and strings.",
         )
     elif "__" in name or name == "_":
-        diagnostics.add("E0105", f"The name `{name}` has two `_` in a row, or nothing else; one between letters is allowed.", span)
+        diagnostics.add(
+            "E0105", f"The name `{name}` has two `_` in a row, or nothing else; one between letters is allowed.", span
+        )
     elif name.endswith("_"):
         diagnostics.add("E0105", f"The name `{name}` ends with `_`.", span, f"Write `{name.rstrip('_')}`.")
     else:
@@ -126,7 +128,10 @@ def _foreign_symbol(file: SourceFile, start: int, end: int, diagnostics: Diagnos
     span = Span(file, start, end)
     if text in _COMPOUND_ASSIGNMENTS:
         diagnostics.add(
-            "E0118", f"`{text}` is not an operator of this language.", span, f"Write `x := x {text[0]} …`, with the name twice."
+            "E0118",
+            f"`{text}` is not an operator of this language.",
+            span,
+            f"Write `x := x {text[0]} …`, with the name twice.",
         )
         return Token("UNKNOWN", text, start, end, file, None, True)
     if text.startswith(":"):
@@ -216,7 +221,12 @@ def _pragma(file: SourceFile, start: int, _end: int, diagnostics: Diagnostics) -
 def _other(file: SourceFile, start: int, end: int, diagnostics: Diagnostics) -> tuple[Token | None, int]:
     character = file.text[start]
     shown = f"`{character}`" if character.isprintable() else f"The character U+{ord(character):04X}"
-    hint = {"‘": "Strings are written with `'`.", "’": "Strings are written with `'`.", "“": 'Write `"`.', "”": 'Write `"`.'}
+    hint = {
+        "‘": "Strings are written with `'`.",
+        "’": "Strings are written with `'`.",
+        "“": 'Write `"`.',
+        "”": 'Write `"`.',
+    }
     diagnostics.add("E0101", f"{shown} has no meaning in a program.", Span(file, start, end), hint.get(character))
     return Token("UNKNOWN", character, start, end, file, None, True), end
 

@@ -38,7 +38,13 @@ _ESCAPES = {"$": "$", "L": "\n", "N": "\n", "P": "\f", "R": "\r", "T": "\t"}
 
 
 def _literal(
-    kind: str, value: bool | int | float | str, prefix: str | None, file: SourceFile, start: int, end: int, bad: bool = False
+    kind: str,
+    value: bool | int | float | str,
+    prefix: str | None,
+    file: SourceFile,
+    start: int,
+    end: int,
+    bad: bool = False,
 ) -> Token:
     text = file.text[start:end]
     return Token("LITERAL", text, start, end, file, Literal(kind, value, prefix, Span(file, start, end)), bad)
@@ -103,13 +109,19 @@ def _report_number(text: str, span: Span, diagnostics: Diagnostics) -> None:
         diagnostics.add("E0106", f"`{text}`: one `_` can stand between two digits, not more, and not at the end.", span)
     elif re.fullmatch(r"[eE]\d*", rest):
         diagnostics.add(
-            "E0106", f"`{text}`: a number with an exponent has a decimal point.", span, f"Write `{digits.group()}.0{rest}`."
+            "E0106",
+            f"`{text}`: a number with an exponent has a decimal point.",
+            span,
+            f"Write `{digits.group()}.0{rest}`.",
         )
     elif "." in text:
         diagnostics.add("E0106", f"`{text}` is no number of the form `12.5` or `1.5E-3`.", span)
     elif re.fullmatch(r"(?i)d|h|m|s|ms|us|ns", rest):
         diagnostics.add(
-            "E0106", f"`{text}` is neither a number nor a name.", span, f"A duration is written `T#{text}`, without spaces."
+            "E0106",
+            f"`{text}` is neither a number nor a name.",
+            span,
+            f"A duration is written `T#{text}`, without spaces.",
         )
     else:
         diagnostics.add("E0106", f"`{text}` is neither a number nor a name: a name starts with a letter or `_`.", span)
@@ -147,12 +159,17 @@ def _prefixed_string(file: SourceFile, start: int, at: int, prefix: str, diagnos
     if number and "#" in number.group() and kind.endswith("CHAR"):
         return _character_by_number(file, start, at, number.end(), prefix, diagnostics)
     diagnostics.add(
-        "E0107", f"Behind `{prefix}#` stands text between {quote} and {quote}.", Span(file, start, at), f"Write `{prefix}#{quote}…{quote}`."
+        "E0107",
+        f"Behind `{prefix}#` stands text between {quote} and {quote}.",
+        Span(file, start, at),
+        f"Write `{prefix}#{quote}…{quote}`.",
     )
     return _literal("string", "", prefix, file, start, at, True)
 
 
-def _character_by_number(file: SourceFile, start: int, at: int, end: int, prefix: str, diagnostics: Diagnostics) -> Token:
+def _character_by_number(
+    file: SourceFile, start: int, at: int, end: int, prefix: str, diagnostics: Diagnostics
+) -> Token:
     wide = prefix.upper() == "WCHAR"
     span = Span(file, start, end)
     value = _based_value(file.text[at:end], span, diagnostics)
@@ -206,7 +223,9 @@ def _enumerated_value(file: SourceFile, start: int, at: int, prefix: str, diagno
         message = f"`{found.group()}` is a keyword and cannot be a value's name."
     else:
         message = f"The name of a value is missing behind `{prefix}#`."
-    diagnostics.add("E0106", message, Span(file, start, end), "A value of an enumeration is written `Colour#red`, without spaces.")
+    diagnostics.add(
+        "E0106", message, Span(file, start, end), "A value of an enumeration is written `Colour#red`, without spaces."
+    )
     return _literal("int", 0, None, file, start, end, True)
 
 
@@ -222,7 +241,11 @@ def read_string(file: SourceFile, start: int, quote_at: int, prefix: str | None,
     end = found.end()
     if not found.group(1):
         last_line = file.text[quote_at:end]
-        hint = f"`${quote}` stands for a quote inside of the string and does not close it." if f"${quote}" in last_line else None
+        hint = (
+            f"`${quote}` stands for a quote inside of the string and does not close it."
+            if f"${quote}" in last_line
+            else None
+        )
         diagnostics.add("E0103", f"This string is not closed: `{quote}` is missing.", Span(file, quote_at, end), hint)
         return _literal(kind, "", prefix, file, start, end, True)
     body = file.text[quote_at + 1 : end - 1]
@@ -241,9 +264,14 @@ def _decode(body: str, quote: str, span: Span, diagnostics: Diagnostics) -> str 
         character = body[at]
         if character != "$":
             if ord(character) > limit:
-                hint = None if quote == '"' else "WSTRING, written with `\"`, takes characters up to U+FFFF."
+                hint = None if quote == '"' else 'WSTRING, written with `"`, takes characters up to U+FFFF.'
                 place = Span(span.file, span.start + at, span.start + at + 1)
-                diagnostics.add("E0107", f"`{character}` does not fit into one character of a {'WSTRING' if width == 4 else 'STRING'}.", place, hint)
+                diagnostics.add(
+                    "E0107",
+                    f"`{character}` does not fit into one character of a {'WSTRING' if width == 4 else 'STRING'}.",
+                    place,
+                    hint,
+                )
                 return None
             characters.append(character)
             at += 1

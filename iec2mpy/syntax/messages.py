@@ -57,7 +57,9 @@ _SHOWN = {terminal: text for text, terminal in SYMBOLS.items()} | {
 _GLUE = ("COLON", "ASSIGN", "COMMA", "TO", "DO", "THEN", "OF", "RPAR", "RSQB", "LSQB", "RANGE", "LPAR", "ON", "UNTIL")
 """Signs and words that are found to be missing by trying whether they would fit."""
 
-_OPERATORS = frozenset({"PLUS", "MINUS", "TIMES", "DIVIDE", "MOD", "POWER", "AND", "OR", "XOR", "EQ", "NE", "LT", "GT", "LE", "GE"})
+_OPERATORS = frozenset(
+    {"PLUS", "MINUS", "TIMES", "DIVIDE", "MOD", "POWER", "AND", "OR", "XOR", "EQ", "NE", "LT", "GT", "LE", "GE"}
+)
 _OPERANDS = frozenset({"NAME", "INTEGER", "LITERAL", "ENUM_VALUE", "DIRECT", "LPAR", "NOT"})
 _CONTINUES_NAME = frozenset({"ASSIGN", "LPAR", "DOT", "LSQB", "CARET", "EQ", "COLON"})
 _ENDS_STATEMENT = frozenset({*STATEMENT_WORDS, *BLOCK_ENDS.values(), "ELSE", "ELSIF", "UNTIL", "END_VAR", "END_STRUCT", "END_TYPE", "END_RESOURCE",
@@ -101,9 +103,21 @@ def _split_number(s: Situation) -> Finding | None:
             drop=1,
         )
     if s.token.type == "DOT" and s.previous.type == "INTEGER":
-        return Finding("E0106", f"Digits are missing behind the point of `{s.previous.text}.`.", s.token.span, f"Write `{s.previous.text}.0`.", drop=1)
+        return Finding(
+            "E0106",
+            f"Digits are missing behind the point of `{s.previous.text}.`.",
+            s.token.span,
+            f"Write `{s.previous.text}.0`.",
+            drop=1,
+        )
     if s.token.type == "DOT" and s.following.type == "INTEGER" and s.accepts("LITERAL"):
-        return Finding("E0106", f"Digits are missing before the point of `.{s.following.text}`.", s.token.span, f"Write `0.{s.following.text}`.", drop=1)
+        return Finding(
+            "E0106",
+            f"Digits are missing before the point of `.{s.following.text}`.",
+            s.token.span,
+            f"Write `0.{s.following.text}`.",
+            drop=1,
+        )
     return None
 
 
@@ -113,12 +127,27 @@ def _assignment_sign(s: Situation) -> Finding | None:
         if token.type == "EQ":
             return Finding("E0117", "`=` compares; `:=` assigns.", token.span, "Write `:=`.", replace="ASSIGN")
         if token.type == "ARROW":
-            return Finding("E0117", "`=>` hands over an output inside of a call; `:=` assigns.", token.span, "Write `:=`.", replace="ASSIGN")
+            return Finding(
+                "E0117",
+                "`=>` hands over an output inside of a call; `:=` assigns.",
+                token.span,
+                "Write `:=`.",
+                replace="ASSIGN",
+            )
     if token.type == "ASSIGN":
         if s.accepts("COLON", s.following.type) and not s.accepts("EQ"):
-            return Finding("E0117", f"Between a name and its type stands `:`, as in `{s.previous.text} : INT;`.", token.span, replace="COLON")
+            return Finding(
+                "E0117",
+                f"Between a name and its type stands `:`, as in `{s.previous.text} : INT;`.",
+                token.span,
+                replace="COLON",
+            )
         if s.previous.type in ("INTEGER", "LITERAL"):
-            return Finding("E0117", f"Nothing can be assigned to {_text(s.previous)}: on the left of `:=` stands a variable.", s.previous.span)
+            return Finding(
+                "E0117",
+                f"Nothing can be assigned to {_text(s.previous)}: on the left of `:=` stands a variable.",
+                s.previous.span,
+            )
         if s.accepts("EQ"):
             return Finding("E0117", "`:=` assigns; `=` compares.", token.span, "Write `=`.", replace="EQ")
     return None
@@ -133,14 +162,21 @@ def _comparison_as_statement(s: Situation) -> Finding | None:
             return Finding("E0117", "`=` compares; `:=` assigns.", value.span, "Write `:=`.")
         if isinstance(value, Token):
             break
-    return Finding("E0120", "This is neither a label of the CASE nor a statement.", s.previous.span, "A label ends with `:`.")
+    return Finding(
+        "E0120", "This is neither a label of the CASE nor a statement.", s.previous.span, "A label ends with `:`."
+    )
 
 
 def _keyword_as_name(s: Situation) -> Finding | None:
     word = s.token.text.upper()
     if word not in KEYWORDS or word.startswith("END_") or not s.accepts("NAME", s.following.type):
         return None
-    if word in ("THEN", "DO", "OF", "ELSE", "ELSIF", "UNTIL", *STATEMENT_WORDS) and s.following.type not in ("COLON", "COMMA", "ASSIGN", "AT"):
+    if word in ("THEN", "DO", "OF", "ELSE", "ELSIF", "UNTIL", *STATEMENT_WORDS) and s.following.type not in (
+        "COLON",
+        "COMMA",
+        "ASSIGN",
+        "AT",
+    ):
         return None
     return Finding("E0112", f"`{s.token.text}` is a keyword and cannot be a name.", s.token.span, replace="NAME")
 
@@ -152,8 +188,15 @@ def _operator_without_left_side(s: Situation) -> Finding | None:
 
 
 def _output_expression(s: Situation) -> Finding | None:
-    if s.token.type in _OPERATORS and any(isinstance(value, Token) and value.type == "ARROW" for value in s.values[-2:]):
-        return Finding("E0124", "An output (`=>`) goes to a variable, not to an expression.", s.token.span, "Take the output first, then calculate.")
+    if s.token.type in _OPERATORS and any(
+        isinstance(value, Token) and value.type == "ARROW" for value in s.values[-2:]
+    ):
+        return Finding(
+            "E0124",
+            "An output (`=>`) goes to a variable, not to an expression.",
+            s.token.span,
+            "Take the output first, then calculate.",
+        )
     return None
 
 
@@ -162,9 +205,15 @@ def _head_word(s: Situation) -> Finding | None:
     for word, rule in _HEAD_WORDS.items():
         if s.accepts(word) and word != "OF":
             if s.token.type in _HEAD_WORDS:
-                return Finding("E0119", f"Here stands `{word}`, not {_text(s.token)}: {rule}.", s.token.span, replace=word)
-            if s.accepts(word, s.token.type) and (s.new_line or s.token.type in _ENDS_STATEMENT or s.token.type == "SEMICOLON"):
-                return Finding("E0119", f"`{word}` is missing after {_text(s.previous)}.", _missing_after(s.previous), insert=word)
+                return Finding(
+                    "E0119", f"Here stands `{word}`, not {_text(s.token)}: {rule}.", s.token.span, replace=word
+                )
+            if s.accepts(word, s.token.type) and (
+                s.new_line or s.token.type in _ENDS_STATEMENT or s.token.type == "SEMICOLON"
+            ):
+                return Finding(
+                    "E0119", f"`{word}` is missing after {_text(s.previous)}.", _missing_after(s.previous), insert=word
+                )
     return None
 
 
@@ -173,7 +222,9 @@ def _semicolon(s: Situation) -> Finding | None:
         return None
     starts = s.token.type in _ENDS_STATEMENT or (s.token.type == "NAME" and s.following.type in _CONTINUES_NAME)
     if s.new_line or starts:
-        return Finding("E0113", f"`;` is missing after {_text(s.previous)}.", _missing_after(s.previous), insert="SEMICOLON")
+        return Finding(
+            "E0113", f"`;` is missing after {_text(s.previous)}.", _missing_after(s.previous), insert="SEMICOLON"
+        )
     return None
 
 
@@ -186,11 +237,17 @@ def _statement_start(s: Situation) -> Finding | None:
     elif token.type in ("ELSE", "ELSIF"):
         message, hint = f"{_text(token)} belongs to no IF or CASE here.", None
     elif token.type in ("THEN", "DO", "OF", "UNTIL", "TO", "BY"):
-        message, hint = f"{_text(token)} has no beginning.", f"{_HEAD_WORDS[token.type]}." if token.type in _HEAD_WORDS else None
+        message, hint = (
+            f"{_text(token)} has no beginning.",
+            f"{_HEAD_WORDS[token.type]}." if token.type in _HEAD_WORDS else None,
+        )
     elif token.text.upper() in KEYWORDS:
         message, hint = f"A statement cannot start with {_text(token)}.", None
     else:
-        message, hint = f"A statement cannot start with {_text(token)}.", "Statements are `x := 1;`, calls, IF, CASE, FOR, WHILE, REPEAT, EXIT, CONTINUE, RETURN."
+        message, hint = (
+            f"A statement cannot start with {_text(token)}.",
+            "Statements are `x := 1;`, calls, IF, CASE, FOR, WHILE, REPEAT, EXIT, CONTINUE, RETURN.",
+        )
     return Finding("E0120", message, token.span, hint)
 
 
@@ -198,7 +255,12 @@ def _value(s: Situation) -> Finding | None:
     if not (s.accepts("NAME") and s.accepts("LITERAL")):
         return None
     if s.token.type in ("MINUS", "PLUS", "NOT"):
-        return Finding("E0119", f"{_text(s.token)} cannot follow {_text(s.previous)} directly.", s.token.span, "Put the second sign and its value into brackets.")
+        return Finding(
+            "E0119",
+            f"{_text(s.token)} cannot follow {_text(s.previous)} directly.",
+            s.token.span,
+            "Put the second sign and its value into brackets.",
+        )
     if s.token.type in _OPERATORS and s.previous.type in ("LPAR", "ASSIGN", "COMMA", "LSQB"):
         return Finding("E0119", f"A value is missing before {_text(s.token)}.", s.token.span)
     return Finding("E0119", f"A value is missing after {_text(s.previous)}.", _missing_after(s.previous))
@@ -208,14 +270,22 @@ def _type(s: Situation) -> Finding | None:
     if not s.accepts("ELEMENTARY"):
         return None
     if s.token.type in ("SEMICOLON", "ASSIGN", "COMMA", "RPAR") or s.token.type.startswith("END") or s.new_line:
-        return Finding("E0119", f"A type is missing after {_text(s.previous)}.", _missing_after(s.previous), "Such as `x : INT;`.")
+        return Finding(
+            "E0119", f"A type is missing after {_text(s.previous)}.", _missing_after(s.previous), "Such as `x : INT;`."
+        )
     return Finding("E0119", f"{_text(s.token)} is no type.", s.token.span, "Such as `x : INT;`.")
 
 
 def _enumerated_in_list(s: Situation) -> Finding | None:
     if s.token.type == "ENUM_VALUE" and s.accepts("NAME"):
         name = s.token.text.partition("#")[2]
-        return Finding("E0121", f"In the list itself a value has no prefix: {_text(s.token)}.", s.token.span, f"Write `{name}`.", replace="NAME")
+        return Finding(
+            "E0121",
+            f"In the list itself a value has no prefix: {_text(s.token)}.",
+            s.token.span,
+            f"Write `{name}`.",
+            replace="NAME",
+        )
     return None
 
 
@@ -225,22 +295,38 @@ def _glue(s: Situation) -> Finding | None:
             continue
         if (terminal == "LSQB" and s.previous.type != "ARRAY") or (terminal == "LPAR" and len(s.expected) > 1):
             continue
-        if terminal == "ASSIGN" and s.token.type in ("NAME", "LPAR") and not s.accepts("ASSIGN", s.token.type, s.following.type):
+        if (
+            terminal == "ASSIGN"
+            and s.token.type in ("NAME", "LPAR")
+            and not s.accepts("ASSIGN", s.token.type, s.following.type)
+        ):
             continue
-        between = f"between {_text(s.previous)} and {_text(s.token)}" if not s.new_line else f"after {_text(s.previous)}"
-        return Finding("E0119", f"`{shown_type(terminal)}` is missing {between}.", _missing_after(s.previous), insert=terminal)
+        between = (
+            f"between {_text(s.previous)} and {_text(s.token)}" if not s.new_line else f"after {_text(s.previous)}"
+        )
+        return Finding(
+            "E0119", f"`{shown_type(terminal)}` is missing {between}.", _missing_after(s.previous), insert=terminal
+        )
     return None
 
 
 def _operator(s: Situation) -> Finding | None:
     if s.token.type in _OPERANDS and s.accepts("PLUS"):
-        return Finding("E0119", f"Something is missing between {_text(s.previous)} and {_text(s.token)}: an operator, or `;`.", s.token.span)
+        return Finding(
+            "E0119",
+            f"Something is missing between {_text(s.previous)} and {_text(s.token)}: an operator, or `;`.",
+            s.token.span,
+        )
     return None
 
 
 def _name(s: Situation) -> Finding | None:
     if s.accepts("NAME"):
-        return Finding("E0119", f"A name is missing {'before ' + _text(s.token) if not s.new_line else 'after ' + _text(s.previous)}.", s.token.span)
+        return Finding(
+            "E0119",
+            f"A name is missing {'before ' + _text(s.token) if not s.new_line else 'after ' + _text(s.previous)}.",
+            s.token.span,
+        )
     return None
 
 
@@ -249,7 +335,11 @@ def _general(s: Situation) -> Finding:
     shown = [text if text.startswith(("a ", "an ", "the ")) else f"`{text}`" for text in fitting]
     hint = f"What fits here: {', '.join(shown)}." if shown else None
     if len(shown) == 1:
-        return Finding("E0119", f"{shown[0][0].upper()}{shown[0][1:]} is missing after {_text(s.previous)}.", _missing_after(s.previous))
+        return Finding(
+            "E0119",
+            f"{shown[0][0].upper()}{shown[0][1:]} is missing after {_text(s.previous)}.",
+            _missing_after(s.previous),
+        )
     return Finding("E0121", f"{_text(s.token)} cannot stand after {_text(s.previous)}.", s.token.span, hint)
 
 

@@ -22,7 +22,12 @@ def parse(file: SourceFile, diagnostics: Diagnostics) -> tree.CompilationUnit:
     tokens = tokenize(file, diagnostics)
     if len(tokens) == 1:
         if not tokens[0].bad:
-            diagnostics.add("E0003", "This file holds no program.", Span(file, 0, 0), "Write `PROGRAM main`, statements, `END_PROGRAM`.")
+            diagnostics.add(
+                "E0003",
+                "This file holds no program.",
+                Span(file, 0, 0),
+                "Write `PROGRAM main`, statements, `END_PROGRAM`.",
+            )
         return tree.CompilationUnit(())
     declarations: list[tree.Declaration] = []
     for part in split(join_split_words(tokens, diagnostics), diagnostics):
@@ -74,7 +79,9 @@ def _foreign_language(tokens: list[Token]) -> tuple[str, str] | None:
     first = tokens[0]
     if first.type == "DRAWING":
         return "E0903", f"Drawn bodies (`{{{first.text}}}`) are"
-    if first.type == "INITIAL_STEP" or (first.text.upper() in SFC_WORDS and tokens[1].type in ("NAME", "LPAR") and first.type == "NAME"):
+    if first.type == "INITIAL_STEP" or (
+        first.text.upper() in SFC_WORDS and tokens[1].type in ("NAME", "LPAR") and first.type == "NAME"
+    ):
         return "E0902", "Sequential Function Charts are"
     if _is_instruction(tokens):
         return "E0901", "Instruction List is"
@@ -87,6 +94,17 @@ def _is_instruction(tokens: list[Token]) -> bool:
     operator, operand = tokens[at], tokens[min(at + 1, len(tokens) - 1)]
     if operator.text.upper() not in IL_OPERATORS:
         return False
-    if operand.type in ("NAME", "LITERAL", "INTEGER", "ENUM_VALUE", "DIRECT", "MINUS", "QUESTION", "REF", "NULL", "THIS"):
+    if operand.type in (
+        "NAME",
+        "LITERAL",
+        "INTEGER",
+        "ENUM_VALUE",
+        "DIRECT",
+        "MINUS",
+        "QUESTION",
+        "REF",
+        "NULL",
+        "THIS",
+    ):
         return operand.line == operator.line
     return operator.text.upper().startswith("RET") and operand.type != "ASSIGN" and operand.line > operator.line

@@ -48,7 +48,12 @@ _POU_END_WORDS = frozenset({*POU_ENDS.values(), "END_METHOD", *FOREIGN_ENDS.valu
 _TOP_WORDS = frozenset({*POU_ENDS, *FOREIGN_ENDS, "TYPE", "CONFIGURATION", "USING"})
 _SECTION_STARTS = frozenset(SECTION_WORDS)
 _POU_STOPS = _TOP_WORDS | _POU_END_WORDS | {"$END", "VAR_GLOBAL"}
-_SECTION_STOPS = _TOP_WORDS | _POU_END_WORDS | _SECTION_STARTS | {"END_TYPE", "METHOD", "RESOURCE", "END_RESOURCE", "END_CONFIGURATION", "$END"}
+_SECTION_STOPS = (
+    _TOP_WORDS
+    | _POU_END_WORDS
+    | _SECTION_STARTS
+    | {"END_TYPE", "METHOD", "RESOURCE", "END_RESOURCE", "END_CONFIGURATION", "$END"}
+)
 _AFTER_NAME = frozenset({"COLON", "COMMA", "AT", "ASSIGN"})
 """What follows a name where it is declared or assigned to: a keyword before these was meant as a name."""
 _AFTER_TARGET = frozenset({"ASSIGN", "LPAR", "DOT", "LSQB", "CARET"})
@@ -115,15 +120,27 @@ class _Splitter:
         elif token.type.startswith("END_"):
             self._report("E0115", f"`{token.text}` closes nothing here.", token.span)
         elif token.type in _SECTION_STARTS:
-            self._report("E0128", f"`{token.text}` stands outside of any program or block.", token.span, "Only VAR_GLOBAL can stand here.")
+            self._report(
+                "E0128",
+                f"`{token.text}` stands outside of any program or block.",
+                token.span,
+                "Only VAR_GLOBAL can stand here.",
+            )
             self._section()
             return
         elif not token.bad:
             self._report(
-                "E0128", f"`{token.text}` stands outside of any program or block.", token.span, "Statements stand between PROGRAM and END_PROGRAM."
+                "E0128",
+                f"`{token.text}` stands outside of any program or block.",
+                token.span,
+                "Statements stand between PROGRAM and END_PROGRAM.",
             )
         self._take()
-        while self._token.type not in _TOP_WORDS and self._token.type not in _SECTION_STARTS and self._token.type != "$END":
+        while (
+            self._token.type not in _TOP_WORDS
+            and self._token.type not in _SECTION_STARTS
+            and self._token.type != "$END"
+        ):
             if self._token.type in _POU_END_WORDS and token.type not in _POU_END_WORDS and token.type != "SEMICOLON":
                 self._take()  # the end of what was stray
                 return
@@ -133,7 +150,9 @@ class _Splitter:
 
     def _using(self) -> None:
         self._report("E0905", "Namespaces (`USING`) are not supported yet.", self._token.span)
-        while self._token.type not in ("SEMICOLON", "$END") and (self._token.type not in _SECTION_STOPS or self._token.type == "USING"):
+        while self._token.type not in ("SEMICOLON", "$END") and (
+            self._token.type not in _SECTION_STOPS or self._token.type == "USING"
+        ):
             self._take()
         if self._token.type == "SEMICOLON":
             self._take()
@@ -153,7 +172,9 @@ class _Splitter:
 
     def _foreign_section(self) -> None:
         word = self._token
-        code, what = ("E0907", "Access paths") if word.type == "VAR_ACCESS" else ("E0908", "Addresses that are given later")
+        code, what = (
+            ("E0907", "Access paths") if word.type == "VAR_ACCESS" else ("E0908", "Addresses that are given later")
+        )
         self._report(code, f"{what} (`{word.text}`) are not supported yet.", word.span)
         self._section()
 
@@ -301,7 +322,9 @@ class _Splitter:
 
     def _pou_name(self, word: Token) -> Token:
         while self._token.text.upper() in CLASS_WORDS and self._peek().type in _NAMES:
-            self._report("E0904", f"Classes and methods (`{self._token.text}`) are not supported yet.", self._token.span)
+            self._report(
+                "E0904", f"Classes and methods (`{self._token.text}`) are not supported yet.", self._token.span
+            )
             self._take()
         token = self._token
         if token.type in _NAMES:
@@ -319,9 +342,15 @@ class _Splitter:
         """The tokens of the type behind a function's `:`, if one is written."""
         if self._token.type != "COLON":
             if word.type == "FUNCTION" and self._token.type in ("ELEMENTARY", "STRING"):
-                self._report("E0119", f"`:` is missing before the function's type `{self._token.text}`.", self._token.span)
-            elif self._token.type == "SEMICOLON" and (self._peek().type in _SECTION_STARTS or self._peek().line > self._token.line):
-                self._report("E0121", f"No `;` stands at the end of a line that starts a {word.text}.", self._token.span)
+                self._report(
+                    "E0119", f"`:` is missing before the function's type `{self._token.text}`.", self._token.span
+                )
+            elif self._token.type == "SEMICOLON" and (
+                self._peek().type in _SECTION_STARTS or self._peek().line > self._token.line
+            ):
+                self._report(
+                    "E0121", f"No `;` stands at the end of a line that starts a {word.text}.", self._token.span
+                )
                 self._take()
                 return None
             else:
@@ -329,7 +358,12 @@ class _Splitter:
         else:
             colon = self._take()
             if word.type != "FUNCTION":
-                self._report("E0121", f"Only a FUNCTION has a type; this is a {word.type}.", colon.span, "Values go out by VAR_OUTPUT.")
+                self._report(
+                    "E0121",
+                    f"Only a FUNCTION has a type; this is a {word.type}.",
+                    colon.span,
+                    "Values go out by VAR_OUTPUT.",
+                )
         tokens: list[Token] = []
         while self._token.type == "REF_TO":
             tokens.append(self._take())
@@ -388,6 +422,10 @@ class _Splitter:
 def _mark_overlap(tokens: list[Token]) -> list[Token]:
     """OVERLAP is a keyword directly behind STRUCT (table 11), and a name elsewhere."""
     for at in range(1, len(tokens) - 1):
-        if tokens[at - 1].type == "STRUCT" and tokens[at].text.upper() == "OVERLAP" and tokens[at + 1].type not in _AFTER_NAME:
+        if (
+            tokens[at - 1].type == "STRUCT"
+            and tokens[at].text.upper() == "OVERLAP"
+            and tokens[at + 1].type not in _AFTER_NAME
+        ):
             tokens[at] = tokens[at].as_type("OVERLAP")
     return tokens

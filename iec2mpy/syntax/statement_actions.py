@@ -41,7 +41,12 @@ def call_statement(values: list[Any], diagnostics: Diagnostics) -> tree.CallStmt
     if isinstance(expression, tree.CallExpr):
         return tree.CallStmt(expression, expression.span)
     text = expression.span.text
-    diagnostics.add("E0120", f"`{text}` alone is no statement.", expression.span, f"Assign to it, `{text} := …;`, or call it, `{text}();`.")
+    diagnostics.add(
+        "E0120",
+        f"`{text}` alone is no statement.",
+        expression.span,
+        f"Assign to it, `{text} := …;`, or call it, `{text}();`.",
+    )
     return None
 
 
@@ -101,19 +106,28 @@ def case_statement(values: list[Any], diagnostics: Diagnostics) -> tree.CaseStmt
 
     def close() -> None:
         if label is not None:
-            groups.append(tree.CaseGroup(label.labels, tuple(statements), over(label, statements[-1] if statements else label)))
+            groups.append(
+                tree.CaseGroup(label.labels, tuple(statements), over(label, statements[-1] if statements else label))
+            )
 
     for item in items:
         if isinstance(item, _CaseLabel):
             close()
             label, statements = item, []
         elif label is None:
-            diagnostics.add("E0120", "This statement stands before the first label of its CASE.", item.span, "Write a value and `:` before it.")
+            diagnostics.add(
+                "E0120",
+                "This statement stands before the first label of its CASE.",
+                item.span,
+                "Write a value and `:` before it.",
+            )
         else:
             statements.append(item)
     close()
     if not groups and not diagnostics.has_errors:
-        diagnostics.add("E0119", "This CASE has no labels.", over(word, values[2]), "Write at least one value, `:` and statements.")
+        diagnostics.add(
+            "E0119", "This CASE has no labels.", over(word, values[2]), "Write at least one value, `:` and statements."
+        )
     return tree.CaseStmt(selector, tuple(groups), _optional(otherwise), over(word, end))
 
 

@@ -11,13 +11,12 @@ import hashlib
 import json
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 START_RULES = ("body", "section", "type_block", "result_type", "configuration")
-_GRAMMAR = "st.lark"
-_TABLES = "st.tables.json"
+_GRAMMAR = Path(__file__).with_name("st.lark")
+_TABLES = Path(__file__).with_name("st.tables.json")
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,10 +42,8 @@ class Tables:
 @cache
 def load() -> Tables:
     """The tables, from the file or, where it does not fit the grammar, from Lark."""
-    folder = files(__package__)
-    digest = _digest(folder.joinpath(_GRAMMAR).read_text(encoding="utf-8"))
-    stored = folder.joinpath(_TABLES)
-    data: dict[str, Any] = json.loads(stored.read_text(encoding="utf-8")) if stored.is_file() else {}
+    digest = _digest(_GRAMMAR.read_text(encoding="utf-8"))
+    data: dict[str, Any] = json.loads(_TABLES.read_text(encoding="utf-8")) if _TABLES.is_file() else {}
     if data.get("grammar") != digest:
         data = build()
     return Tables(
@@ -63,7 +60,7 @@ def build() -> dict[str, Any]:
     from lark.grammar import Rule as LarkRule
     from lark.parsers.lalr_analysis import Shift
 
-    grammar = files(__package__).joinpath(_GRAMMAR).read_text(encoding="utf-8")
+    grammar = _GRAMMAR.read_text(encoding="utf-8")
     parser = Lark(grammar, parser="lalr", lexer="basic", start=list(START_RULES))
     table = parser.parser.parser._parse_table  # type: ignore[attr-defined]
     numbers = {state: number for number, state in enumerate(table.states)}
@@ -100,4 +97,4 @@ def write() -> None:
     rules = ",\n".join(json.dumps(rule, separators=(",", ":")) for rule in data.pop("rules"))
     head = json.dumps(data, indent=0)[:-2]
     text = f'{head},\n"rules": [\n{rules}\n],\n"states": [\n{states}\n]\n}}\n'
-    Path(str(files(__package__).joinpath(_TABLES))).write_text(text, encoding="utf-8")
+    _TABLES.write_text(text, encoding="utf-8")

@@ -60,7 +60,9 @@ def read(file: SourceFile, start: int, at: int, prefix: str, diagnostics: Diagno
     value, bad = 0, False
     try:
         if not text:
-            raise _BadLiteral(_code(kind), f"The value is missing behind `{prefix}#`.", f"Write `{prefix}#{_EXAMPLES[kind]}`.")
+            raise _BadLiteral(
+                _code(kind), f"The value is missing behind `{prefix}#`.", f"Write `{prefix}#{_EXAMPLES[kind]}`."
+            )
         value = _READERS[kind](text, span.text)
     except _BadLiteral as problem:
         diagnostics.add(problem.code, problem.message, span, problem.hint)
@@ -88,12 +90,16 @@ def _duration(text: str, shown: str) -> int:
     for number, unit in parts:
         place = order.index(unit.lower())
         if place <= last:
-            raise _BadLiteral("E0108", f"`{shown}`: units go from the largest to the smallest, each once.", "Such as `T#1d2h3m4s5ms`.")
+            raise _BadLiteral(
+                "E0108", f"`{shown}`: units go from the largest to the smallest, each once.", "Such as `T#1d2h3m4s5ms`."
+            )
         last = place
         total += _fixed(number, UNITS[unit.lower()])
     for number, unit in parts[:-1]:
         if "." in number:
-            raise _BadLiteral("E0108", f"`{shown}`: only the last unit can have a fraction; `{number}{unit}` is not the last.")
+            raise _BadLiteral(
+                "E0108", f"`{shown}`: only the last unit can have a fraction; `{number}{unit}` is not the last."
+            )
     return -total if text.startswith("-") else total
 
 
@@ -119,7 +125,9 @@ def _date(text: str, shown: str) -> int:
 def _daytime(text: str, shown: str) -> int:
     found = _DAYTIME.match(text)
     if not found or len(text) > 100:
-        raise _BadLiteral("E0109", f"`{shown}` is no time of day.", "Hours, minutes and seconds are all written: `TOD#15:36:00`.")
+        raise _BadLiteral(
+            "E0109", f"`{shown}` is no time of day.", "Hours, minutes and seconds are all written: `TOD#15:36:00`."
+        )
     hours, minutes = (int(number.replace("_", "")) for number in found.groups()[:2])
     seconds = _fixed(found.group(3), _SECOND)
     for name, value, limit in (("hour", hours, 24), ("minute", minutes, 60), ("second", seconds // _SECOND, 60)):

@@ -16,7 +16,14 @@ class Token:
     __slots__ = ("bad", "end", "file", "start", "text", "type", "value")
 
     def __init__(
-        self, type: str, text: str, start: int, end: int, file: SourceFile, value: Literal | None = None, bad: bool = False
+        self,
+        type: str,
+        text: str,
+        start: int,
+        end: int,
+        file: SourceFile,
+        value: Literal | None = None,
+        bad: bool = False,
     ) -> None:
         self.type = type
         self.text = text
