@@ -55,7 +55,9 @@ class Controller:
 
     def __init__(self, program, io, clock):
         self._program = program
-        self._io = io
+        self._read = io.read  # taken once: a bound method is an object
+        self._write = io.write
+        self._safe = io.safe
         self._clock = clock
         self.tasks = []
         for task in program.TASKS:
@@ -79,7 +81,7 @@ class Controller:
     def restart(self, cold):
         """Every variable gets its initial value, and the tasks are due at once. Warm: RETAIN variables keep theirs, and
         the clock goes on."""
-        self._io.safe(self._program.V)
+        self._safe(self._program.V)
         self._now = 0 if cold else self._now
         self._rest = 0 if cold else self._rest
         self.fault = None
@@ -109,7 +111,7 @@ class Controller:
         if self.fault:
             return
         left = self.period
-        self._exchange(self._io.read)
+        self._exchange(self._read)
         while not self.fault:
             task = self._first_within(left)
             if task is None:
@@ -162,8 +164,12 @@ class Controller:
         return tick
 
     def until_due(self):
-        """Microseconds until the next task is due; 0 or less if one is."""
-        return min([task.wait for task in self._all]) if self._all else self.period
+        """Microseconds until the next task is due, at most a period; 0 or less if one is."""
+        soonest = self.period
+        for task in self._all:
+            if task.wait < soonest:
+                soonest = task.wait
+        return soonest
 
     def _poll(self, early):
         """A poll, or, after an interrupt, the rest of it."""
@@ -173,7 +179,7 @@ class Controller:
             if task is None:
                 break
             if self._reading:
-                self._exchange(self._io.read)
+                self._exchange(self._read)
                 self._reading = False
             else:
                 self._run(task, True)
@@ -207,7 +213,7 @@ class Controller:
 
     def stop(self):
         """Outputs go safe."""
-        self._io.safe(self._program.V)
+        self._safe(self._program.V)
 
     def _advance(self, us):
         for task in self._all:
@@ -246,7 +252,7 @@ class Controller:
 
     def _end_scan(self):
         if not self.fault:
-            self._exchange(self._io.write)
+            self._exchange(self._write)
         self.scans += 1
 
     def _fail(self, error, otherwise):
@@ -260,4 +266,4 @@ class Controller:
             kind = otherwise
             self.detail = "%s: %s" % (type(error).__name__, error)
         self.fault = (kind, self._program.V[SITE])
-        self._io.safe(self._program.V)
+        self._safe(self._program.V)

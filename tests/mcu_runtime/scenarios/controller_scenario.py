@@ -131,13 +131,16 @@ def test_what_is_no_fault_stops_too():
 
 
 def test_a_driver_that_fails_is_a_fault():
-    controller, program, io, _ = build([("main", 10_000, 1)])
+
+    class BrokenIO(IO):
+        def write(self, V):
+            raise OSError(5)
+
+    program = Program()
+    program.TASKS = (("main", 10_000, 1, program.runs("main")),)
+    io = BrokenIO()
+    controller = Controller(program, io, VirtualClock())
     program.V[SITE] = 9
-
-    def broken(V):
-        raise OSError(5)
-
-    io.write = broken
     controller.scan()
     assert controller.fault == ("io", 0)
     assert io.log[-1] == "safe"
@@ -204,7 +207,7 @@ def test_a_little_early_is_in_time():
     clock.advance(9_990)
     controller.poll(5_000)
     assert len(program.log) == 2
-    assert controller.until_due() == 10_010
+    assert controller.tasks[0].wait == 10_010
 
 
 def test_missed_deadlines_are_counted_and_skipped():
@@ -321,3 +324,35 @@ def test_real_clock_counts_microseconds():
 
 def test_slots():
     assert (NOW, LOOP, SITE) == (1, 2, 3)
+
+
+def test_the_scheduler_allocates_nothing():
+    try:
+        from gc import collect, disable, enable, mem_alloc
+    except ImportError:  # CPython
+        return
+
+    class NoIO(IO):
+        def read(self, V):
+            pass
+
+        write = safe = read
+
+    program = Program()
+    program.TASKS = (("a", 10_000, 1, program.reset), ("b", 20_000, 1, program.reset))
+    program.UNTIMED = program.reset
+    clock = VirtualClock()
+    controller = Controller(program, NoIO(), clock)
+    controller.resume()
+    collect()
+    disable()
+    before = mem_alloc()
+    for _ in range(100):
+        clock.advance(10_000)
+        controller.poll(5_000)
+        controller.until_due()
+        controller.scan()
+    grown = mem_alloc() - before
+    enable()
+    assert controller.scans == 200
+    assert grown < 100, grown
