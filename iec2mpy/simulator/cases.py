@@ -74,6 +74,7 @@ class BadCase:
 
     file: Path
     id: str
+    title: str
     features: tuple[str, ...]
     message: str
 
@@ -96,10 +97,20 @@ def cases_of(path: Path, tables: Iterable[Mapping[str, Any]]) -> list[Case | Bad
             seen[name] = position
             cases.append(_case(path, table))
         except _Malformed as error:
-            features = table.get("features")
-            known = tuple(f for f in features if isinstance(f, str)) if isinstance(features, list) else ()
-            cases.append(BadCase(path, name, known, f"The case is not well formed: {error}."))
+            cases.append(_bad_case(path, name, table, f"the case is not well formed: {error}"))
     return cases
+
+
+def _bad_case(path: Path, name: str, table: Mapping[str, Any], message: str) -> BadCase:
+    """With its title and features, if these are as they should be."""
+    title, features = table.get("title"), table.get("features")
+    return BadCase(
+        file=path,
+        id=name,
+        title=title if isinstance(title, str) else "",
+        features=tuple(f for f in features if isinstance(f, str)) if isinstance(features, list) else (),
+        message=message,
+    )
 
 
 def read_tables(path: Path) -> list[dict[str, Any]]:
@@ -115,7 +126,7 @@ def read_tables(path: Path) -> list[dict[str, Any]]:
         raise CaseFileError(f"{path} cannot be read: {error.strerror}") from None
     unknown = [key for key in data if key != "case"]
     if unknown:
-        raise CaseFileError(f"{path}: `{unknown[0]}` is not known at the top of a case file; each case starts with [[case]]")
+        raise CaseFileError(f"{path}: `{unknown[0]}` is no key of a case file, where each case starts with [[case]]")
     tables = data.get("case", [])
     if not isinstance(tables, list) or not all(isinstance(t, dict) for t in tables):
         raise CaseFileError(f"{path}: a case starts with [[case]], in double brackets")
@@ -228,8 +239,8 @@ def _only(known: Collection[str], table: Mapping[str, Any], where: str) -> None:
 
 def _one_of(table: Mapping[str, Any], first: str, second: str) -> None:
     if (first in table) == (second in table):
-        count = "both" if first in table else "neither"
-        raise _Malformed(f"it has {count} `{first}` {'and' if count == 'both' else 'nor'} `{second}`; exactly one is needed")
+        what = f"both `{first}` and" if first in table else f"neither `{first}` nor"
+        raise _Malformed(f"it has {what} `{second}`; exactly one is needed")
 
 
 def _text(table: Mapping[str, Any], key: str) -> str | None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from types import TracebackType
 
 from iec2mpy.backends import GeneratedProgram
+from iec2mpy.backends.memory_map import Leaf
 from iec2mpy.simulator import engines
 
 _MEANINGS: Mapping[str, str] = {
@@ -66,6 +67,11 @@ class Simulation:
     def get(self, path: str) -> object:
         """The value of a variable, or of all of an array or structure."""
         return self._map.read(self._map.resolve(path), self._read)
+
+    def get_leaves(self, leaves: Sequence[Leaf]) -> list[object]:
+        """Many single values, in one request to the engine."""
+        raw = self._read([(leaf.variable.array, leaf.slot) for leaf in leaves])
+        return [self._map.decode(leaf, value) for leaf, value in zip(leaves, raw, strict=True)]
 
     def restart(self, cold: bool) -> None:
         """Initial values, at time 0; warm: RETAIN variables keep theirs, and the clock goes on."""

@@ -1,4 +1,4 @@
-"""The conformance cases as they are run: corrected, and sorted into those that are covered and those that are not yet."""
+"""The conformance cases as they are run: corrected, and those apart that are not covered yet."""
 
 from __future__ import annotations
 

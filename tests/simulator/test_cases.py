@@ -61,7 +61,8 @@ steps = [ { run = "T#1m30s", expect = { "%QX0.0" = true } }, { scans = 3, fault 
 
 
 def test_expected_error(tmp_path: Path) -> None:
-    case = _one(tmp_path, '[[case]]\nid = "e"\nfiles = ["a.st", "b.st"]\nerror = { line = 3, about = "type", file = "b.st" }')
+    body = 'files = ["a.st", "b.st"]\nerror = { line = 3, about = "type", file = "b.st" }'
+    case = _one(tmp_path, f'[[case]]\nid = "e"\n{body}')
     assert case.error == ExpectedError(3, "type", "b.st")
 
 
@@ -77,7 +78,7 @@ def test_expected_error(tmp_path: Path) -> None:
         (f"{_STEPS}\ninterval = 'T#0s'", '`interval` must be a duration above 0, such as "T#10ms", not "T#0s"'),
         ("source = ''\nsteps = []", "`steps` is empty"),
         ("source = ''\nsteps = [ 3 ]", "step 1: a step must be a table"),
-        ("source = ''\nsteps = [ {}, { expects = {} } ]", "step 2: `expects` is no key of a step (did you mean `expect`?)"),
+        ("source = ''\nsteps = [ {}, { expects = {} } ]", "step 2: `expects` is no key of a step (did you mean"),
         ("source = ''\nsteps = [ { scans = 1, run = 'T#1s' } ]", "step 1: it has both `scans` and `run`"),
         ("source = ''\nsteps = [ { scans = -1 } ]", "step 1: `scans` must be a whole number, 0 or more"),
         ("source = ''\nsteps = [ { scans = true } ]", "step 1: `scans` must be a whole number, 0 or more"),
@@ -89,7 +90,7 @@ def test_expected_error(tmp_path: Path) -> None:
         ("source = ''\nerror = { line = 1, about = 'types' }", "`about` must be one of syntax, type,"),
         ("source = ''\nerror = { line = 1 }", "`error.about` is missing"),
         ("files = ['a.st', 'b.st']\nerror = { line = 1, about = 'type' }", "`error` must name its `file`"),
-        ("files = ['a.st']\nerror = { line = 1, about = 'type', file = 'c.st' }", 'the file "c.st", which is not in `files`'),
+        ("files = ['a.st']\nerror = { line = 1, about = 'type', file = 'c' }", 'the file "c", which is not in `files`'),
     ],
 )
 def test_malformed_case(tmp_path: Path, body: str, said: str) -> None:
@@ -97,7 +98,8 @@ def test_malformed_case(tmp_path: Path, body: str, said: str) -> None:
 
 
 def test_other_cases_of_the_file_are_kept(tmp_path: Path) -> None:
-    text = f'[[case]]\nid = "a"\n{_STEPS}\n[[case]]\nid = "a"\n{_STEPS}\n[[case]]\n{_STEPS}\n[[case]]\nid = "d"\n{_STEPS}\n'
+    heads = ('id = "a"', 'id = "a"', "", 'id = "d"')
+    text = "\n".join(f"[[case]]\n{head}\n{_STEPS}" for head in heads)
     first, twice, nameless, last = _load(tmp_path, text)
     assert isinstance(first, Case)
     assert isinstance(twice, BadCase)
@@ -112,14 +114,14 @@ def test_other_cases_of_the_file_are_kept(tmp_path: Path) -> None:
     [
         (b"[[case]\n", "is not TOML"),
         (b"\xff\xfe", "is not UTF-8 text"),
-        (b"cases = 3\n", "`cases` is not known at the top of a case file"),
+        (b"cases = 3\n", "`cases` is no key of a case file"),
         (b"[case]\nid = 'a'\n", "a case starts with [[case]], in double brackets"),
     ],
 )
 def test_unreadable_file(tmp_path: Path, content: bytes, said: str) -> None:
     path = tmp_path / "cases.toml"
     path.write_bytes(content)
-    with pytest.raises(CaseFileError, match="cases.toml") as caught:
+    with pytest.raises(CaseFileError, match=r"cases\.toml") as caught:
         load_case_file(path)
     assert said in str(caught.value)
 
