@@ -127,6 +127,11 @@ def binary(name: str, left: Scalar, right: Scalar, left_type: SingleType, right_
     return wrap(_INTEGER[name](left, right), left_type)
 
 
+def bitwise(name: str, left: int, right: int) -> int:
+    """AND, OR, XOR of two numbers that have no width yet."""
+    return _INTEGER[name](left, right)
+
+
 def unary(name: str, operand: Scalar, of: SingleType) -> Scalar:
     """`-operand` of a number or a TIME, `NOT operand` of a bit string."""
     assert isinstance(of, ElementaryType)

@@ -29,7 +29,8 @@ class Variable:
 
     `section` is None for a field, and RESULT_SECTION does not exist: a function's result is `Pou.result`.
     `initial` is complete: the declared value, or that of the type. `address` is the normal form of its location.
-    For EXTERNAL, `target` is the global variable meant.
+    For EXTERNAL, `target` is the global variable meant. `retain`: True for RETAIN, False for NON_RETAIN, and None where
+    nothing is written: such a variable of an instance does as the instance does (6.5.6.2), others are not retained.
     """
 
     name: str
@@ -38,7 +39,7 @@ class Variable:
     span: Span
     initial: Value
     constant: bool = False
-    retain: bool = False
+    retain: bool | None = None
     address: str | None = None
     target: Variable | None = None
     owner: Pou | None = None
@@ -90,7 +91,7 @@ class ProgramInstance:
     pou: Pou
     task: Task | None
     span: Span
-    retain: bool = False
+    retain: bool | None = None
 
 
 @dataclass(eq=False, slots=True)
@@ -98,9 +99,12 @@ class Application:
     """All that runs on one controller.
 
     Without a CONFIGURATION there is one task of the default interval, named "main", over all programs.
+    `direct` holds, by address, the located variables without another name: those of `AT %QW5 : INT`, and those that
+    stand as addresses in bodies. All variables with one `address` are one place; they have the same type.
     """
 
     globals: dict[str, Variable]
+    direct: dict[str, Variable]
     pous: list[Pou]
     tasks: list[Task]
     programs: list[ProgramInstance]
@@ -178,9 +182,9 @@ class Unary:
 
 @dataclass(frozen=True, slots=True)
 class Binary:
-    """Both operands have the same type, except for shifts by time (TIME * INT and its like: `left` is the TIME).
+    """Both operands have the same base type, except for TIME * number and TIME / number, where `left` is the TIME.
 
-    `operator`: + - * / MOD ** AND OR XOR = <> < > <= >=; `type` is BOOL for comparisons.
+    `operator`: + - * / MOD ** AND OR XOR = <> < > <= >=; `type` is BOOL for comparisons. Strings may differ in length.
     """
 
     operator: str
@@ -233,12 +237,12 @@ ActualParameter = InputArgument | InOutArgument | OutputArgument
 class FunctionCall:
     """A call of a user's function. `arguments` in the order written; inputs left out take their initial values.
 
-    `type` is None for a function without a result: it stands only in a CallStmt.
+    `type` is NO_RESULT for a function without a result: it stands only in a CallFunction.
     """
 
     function: Pou
     arguments: tuple[ActualParameter, ...]
-    type: Type | None
+    type: Type
     span: Span
 
 

@@ -67,14 +67,16 @@ DWORD = _unsigned("DWORD", 32, Kind.BITS)
 REAL = ElementaryType("REAL", Kind.REAL, 32, 0, 0)
 TIME = _signed("TIME", 32, Kind.DURATION)  # milliseconds
 
+NO_RESULT = ElementaryType("no result", Kind.BOOL, 0, 0, 0)
+"""What the call of a function without a result gives; such a call stands alone."""
+
 ELEMENTARY: Mapping[str, ElementaryType] = {
     t.name: t for t in (BOOL, SINT, INT, DINT, USINT, UINT, UDINT, BYTE, WORD, DWORD, REAL, TIME)
 }
 """By name, in capitals. STRING has a length, and is `StringType`."""
 
 NOT_YET = frozenset(
-    "LINT ULINT LWORD LREAL LTIME DATE LDATE TOD TIME_OF_DAY LTOD LTIME_OF_DAY DT DATE_AND_TIME LDT LDATE_AND_TIME "
-    "CHAR WCHAR WSTRING".split()
+    ["LINT", "ULINT", "LWORD", "LREAL", "LTIME", "DATE", "LDATE", "TOD", "TIME_OF_DAY", "LTOD", "LTIME_OF_DAY", "DT", "DATE_AND_TIME", "LDT", "LDATE_AND_TIME", "CHAR", "WCHAR", "WSTRING"]
 )
 """Elementary types of the standard that this compiler does not have yet."""
 

@@ -1,0 +1,285 @@
+"""Variables in expressions: their parts, and who may read, write or call them (figure 13 of 6.6.3.4.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from enum import Enum
+
+from iec2mpy.semantics import addresses, declarations, expressions
+from iec2mpy.semantics.coercion import describe, typed_literal
+from iec2mpy.semantics.conversions import is_integer
+from iec2mpy.semantics.names import unknown_name
+from iec2mpy.semantics.scope import UNKNOWN, Scope
+from iec2mpy.semantics.signatures import parameter_key
+from iec2mpy.semantics.typed import Constant, DirectRef, ElementRef, Expr, FieldRef, Variable, VariableRef
+from iec2mpy.semantics.types import (
+    ArrayType,
+    BlockType,
+    EnumType,
+    StringType,
+    StructType,
+    Type,
+    unaliased,
+)
+from iec2mpy.source.diagnostics import Related
+from iec2mpy.source.spans import Span
+from iec2mpy.source.suggest import suggest
+from iec2mpy.syntax import tree
+from iec2mpy.syntax.tree import PouKind, Section
+
+
+class Use(Enum):
+    """What is done with a variable."""
+
+    READ = "read"
+    WRITE = "written"
+    CALL = "called"
+    IN_OUT = "given to an in-out"
+
+
+def reference(scope: Scope, expr: tree.Expr, use: Use) -> Expr | None:
+    """The variable, or the part of one, that `expr` names, if it may be used so; else None, after a diagnostic."""
+    finder = _FINDERS.get(type(expr))
+    if finder is None:
+        _no_variable(scope, expr, use)
+        return None
+    return finder(scope, expr, use)
+
+
+def _no_variable(scope: Scope, expr: tree.Expr, use: Use) -> None:
+    if isinstance(expr, (tree.PartExpr, tree.DerefExpr)):
+        expressions.check(scope, expr)  # reports them as not supported yet
+        return
+    if use is Use.IN_OUT:
+        scope.diagnostics.add(
+            "E0406", "An in-out needs a variable, and this is a value.", expr.span, "Store the value in a variable, and give that."
+        )
+    elif use is Use.CALL:
+        scope.diagnostics.add("E0411", "This cannot be called.", expr.span, "Only functions and instances of blocks are called.")
+    else:
+        scope.diagnostics.add("E0603", "This is no variable.", expr.span, "Only variables and their parts can be assigned.")
+
+
+# -------------------------------------------------------------------------------------------- whole variables
+
+
+def _name(scope: Scope, expr: tree.NameExpr, use: Use) -> Expr | None:
+    key = expr.name.casefold()
+    variable = scope.locals.get(key)
+    if variable is None and scope.pou is None:
+        variable = declarations.shared_constant(scope.world, key)
+    if variable is None:
+        if scope.enumerations_with(key) and use is not Use.READ:
+            _no_variable(scope, expr, use)
+        else:
+            unknown_name(scope, expr)
+        return None
+    if variable.type is UNKNOWN or not _may_use(scope, variable, use, expr.span):
+        return None
+    found = variable.target or variable
+    return VariableRef(found, unaliased(found.type), expr.span)
+
+
+def _may_use(scope: Scope, variable: Variable, use: Use, span: Span) -> bool:
+    if use in (Use.READ, Use.CALL):
+        return True
+    add = scope.diagnostics.add
+    if variable.constant:
+        add("E0507", f"`{variable.name}` is a constant: it cannot be {use.value}.", span, None, [_declared(variable)])
+        return False
+    if variable.section is Section.INPUT:
+        code = "E0606" if use is Use.IN_OUT else "E0604"
+        hint = "Copy it to a variable of VAR or VAR_TEMP, and change that." if use is Use.WRITE else "Give it a copy in a variable of VAR."
+        add(code, f"`{variable.name}` is an input of `{_owner(scope)}`: it cannot be {use.value} here.", span, hint, [_declared(variable)])
+        return False
+    located = (variable.target or variable).address
+    if located and located.startswith("%I"):
+        add("E0604", f"`{variable.name}` is the input {located}: it cannot be {use.value}.", span, None, [_declared(variable)])
+        return False
+    if variable in scope.controls:
+        add(
+            "E0602",
+            f"`{variable.name}` counts the passes of this FOR: it cannot be {use.value} in its body.",
+            span,
+            "Use EXIT to leave the loop, or WHILE to count yourself.",
+            [Related(scope.controls[variable], "The loop is here.")],
+        )
+        return False
+    if variable is _result_of(scope):
+        scope.result_assigned = True
+    return True
+
+
+def _result_of(scope: Scope) -> Variable | None:
+    return scope.pou.result if scope.pou is not None else None
+
+
+def _owner(scope: Scope) -> str:
+    return scope.pou.name if scope.pou is not None else ""
+
+
+def _declared(variable: Variable) -> Related:
+    return Related(variable.span, f"`{variable.name}` is declared here.")
+
+
+def _direct(scope: Scope, expr: tree.DirectVariable, use: Use) -> Expr | None:
+    variable = addresses.direct_variable(scope, expr)
+    if variable is None or variable.type is UNKNOWN:
+        return None
+    if use in (Use.WRITE, Use.IN_OUT) and expr.area == "I":
+        scope.diagnostics.add("E0604", f"{expr.text} is an input: it cannot be {use.value}.", expr.span)
+        return None
+    return DirectRef(variable, unaliased(variable.type), expr.span)
+
+
+# ---------------------------------------------------------------------------------------------------- parts
+
+
+def _member(scope: Scope, expr: tree.MemberExpr, use: Use) -> Expr | None:
+    if isinstance(expr.base, tree.NameExpr) and expr.base.name.casefold() not in scope.locals:
+        key = expr.base.name.casefold()
+        declaration = scope.world.pou_declarations.get(key)
+        if declaration is not None and declaration.kind is PouKind.FUNCTION:
+            scope.diagnostics.add(
+                "E0204",
+                f"`{declaration.name.text}` is a function: nothing of it is left after a call.",
+                expr.span,
+                f"Take the output in the call: {declaration.name.text}(…, {expr.name.text} => variable).",
+            )
+            return None
+    base = _base(scope, expr.base, use)
+    if base is None:
+        return None
+    t = base.type
+    if isinstance(t, BlockType):
+        return _of_instance(scope, expr, base, t, use)
+    if not isinstance(t, StructType):
+        scope.diagnostics.add(
+            "E0307", f"This is {describe(t)}, which has no member `{expr.name.text}`.", expr.name.span, "Structures and instances have members."
+        )
+        return None
+    field = t.fields.get(expr.name.key)
+    if field is None:
+        _unknown_member(scope, t, expr.name, (f.name for f in t.fields.values()))
+        return None
+    return _field(base, field, expr.span)
+
+
+def _base(scope: Scope, expr: tree.Expr, use: Use) -> Expr | None:
+    """The instance or structure that a part is taken of. What matters for an instance is what is done with its parts,
+    not with itself: its outputs are read, its inputs written, whatever section it stands in, except for VAR_INPUT."""
+    if not isinstance(expr, (tree.NameExpr, tree.MemberExpr, tree.IndexExpr)):
+        return reference(scope, expr, use)
+    found = reference(scope, expr, Use.CALL)
+    if found is None or _holds_instance(found):
+        return found
+    return reference(scope, expr, use) if use not in (Use.CALL, Use.READ) else found
+
+
+def _holds_instance(expr: Expr) -> bool:
+    t = expr.type
+    while isinstance(t, ArrayType):
+        t = unaliased(t.element)
+    return isinstance(t, BlockType)
+
+
+def _field(base: Expr, field: Variable, span: Span) -> Expr | None:
+    return None if field.type is UNKNOWN else FieldRef(base, field, unaliased(field.type), span)
+
+
+def _unknown_member(scope: Scope, t: Type, name: tree.Name, known: object) -> None:
+    near = suggest(name.text, list(known))  # type: ignore[call-overload]
+    scope.diagnostics.add("E0204", f"{t} has no member `{name.text}`.", name.span, f"Did you mean `{near}`?" if near else None)
+
+
+_ALLOWED: Mapping[Section, frozenset[Use]] = {
+    Section.INPUT: frozenset((Use.WRITE,)),  # case 1b of figure 13: not read
+    Section.OUTPUT: frozenset((Use.READ,)),  # case 4b: not written; an in-out would write it
+}
+"""What may be done with the variables of an instance from outside of its block."""
+
+
+def _of_instance(scope: Scope, expr: tree.MemberExpr, base: Expr, t: BlockType, use: Use) -> Expr | None:
+    declarations.declare_pou(scope.world, t.pou.name.casefold())
+    name = expr.name
+    variable = t.pou.variables.get(parameter_key(t.pou, name.key))
+    if variable is None:
+        _unknown_member(scope, t, name, (v.name for v in t.pou.variables.values() if v.section in _ALLOWED))
+        return None
+    if variable.section is not None and use in _ALLOWED.get(variable.section, ()):
+        return _field(base, variable, expr.span)
+    _refused(scope, expr, variable, t, use)
+    return None
+
+
+def _refused(scope: Scope, expr: tree.MemberExpr, variable: Variable, t: BlockType, use: Use) -> None:
+    section = variable.section.value if variable.section else ""
+    code, hint = "E0605" if use is Use.READ else "E0604", None
+    if variable.section is Section.INPUT:
+        hint = "Read the variable that was given to it."
+    elif variable.section is Section.OUTPUT:
+        hint = "Only the block itself writes its outputs." if use is Use.WRITE else "Copy it to a variable first."
+    elif variable.section is Section.IN_OUT:
+        hint = "Use the variable that was given to the in-out in the call."
+    else:
+        hint = f"Only the inputs and outputs of {t} are for others."
+    if use is Use.IN_OUT:
+        code = "E0606"
+    message = f"`{variable.name}` is {section} of {t}: it cannot be {use.value} from outside."
+    scope.diagnostics.add(code, message, expr.name.span, hint, [_declared(variable)])
+
+
+def _element(scope: Scope, expr: tree.IndexExpr, use: Use) -> Expr | None:
+    base = _base(scope, expr.base, use)
+    indices = [_index(scope, index) for index in expr.indices]
+    if base is None:
+        return None
+    t = base.type
+    if isinstance(t, StringType):
+        scope.diagnostics.add(
+            "E0915", "Access to a character of a STRING is not supported yet.", expr.span, "MID(s, 1, i) gives it as a STRING."
+        )
+        return None
+    if not isinstance(t, ArrayType):
+        scope.diagnostics.add("E0307", f"This is {describe(t)}, which has no elements.", expr.span, "Only arrays have subscripts.")
+        return None
+    if len(indices) != len(t.bounds):
+        scope.diagnostics.add("E0306", f"This array has {_dimensions(len(t.bounds))}, and {len(indices)} given.", expr.span)
+        return None
+    checked = [index for index in indices if index is not None]
+    if len(checked) != len(indices) or not _inside(scope, checked, t):
+        return None
+    return ElementRef(base, tuple(checked), unaliased(t.element), expr.span)
+
+
+def _dimensions(count: int) -> str:
+    return "1 subscript" if count == 1 else f"{count} subscripts"
+
+
+def _index(scope: Scope, expr: tree.Expr) -> Expr | None:
+    index = expressions.check(scope, expr)
+    if index is None:
+        return None
+    if not is_integer(index.type) or isinstance(index.type, EnumType):
+        scope.diagnostics.add("E0305", f"A subscript must be an integer, but this is {describe(index.type)}.", index.span)
+        return None
+    return typed_literal(scope, index)
+
+
+def _inside(scope: Scope, indices: Sequence[Expr], t: ArrayType) -> bool:
+    """Whether all constant subscripts are within the bounds."""
+    for index, (low, high) in zip(indices, t.bounds, strict=True):
+        if isinstance(index, Constant) and not low <= int(index.value) <= high:
+            scope.diagnostics.add(
+                "E0502", f"The subscript {index.value} is out of bounds: the array has {low}..{high}.", index.span
+            )
+            return False
+    return True
+
+
+_FINDERS: Mapping[type, Callable[..., Expr | None]] = {
+    tree.NameExpr: _name,
+    tree.DirectVariable: _direct,
+    tree.MemberExpr: _member,
+    tree.IndexExpr: _element,
+}

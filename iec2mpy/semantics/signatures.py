@@ -1,0 +1,152 @@
+"""The standard functions as `stdlib/functions.toml` lists them, and what it says about the standard blocks."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+
+from iec2mpy.semantics.conversions import type_named
+from iec2mpy.semantics.typed import Pou
+from iec2mpy.semantics.types import ElementaryType, StringType
+from iec2mpy.source.resources import resource_dir
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """`type` is the name of an elementary or of a generic type."""
+
+    name: str
+    type: str
+
+
+@dataclass(frozen=True, slots=True)
+class Signature:
+    """A standard function. `fixed` is the type that a typed name gives to the generic type `generic` (`ADD_INT`).
+
+    `operator` is the operator that the function is another name of, or None; `name` is without the type.
+    """
+
+    name: str
+    inputs: tuple[Parameter, ...]
+    result: str
+    operator: str | None = None
+    extensible: bool = False
+    optional: bool = False
+    fixed: ElementaryType | StringType | None = None
+
+    @property
+    def generic(self) -> str | None:
+        """The generic type that a typed name replaces: that of the result, else that of the inputs."""
+        return next((t for t in (self.result, *(p.type for p in self.inputs)) if t.startswith("ANY")), None)
+
+    def parameter(self, number: int) -> Parameter | None:
+        """The input at a position from 0; those of an extensible function go on without end."""
+        if number < len(self.inputs):
+            return self.inputs[number]
+        if not self.extensible:
+            return None
+        last = self.inputs[-1]
+        stem, start = _numbered(last.name)
+        return Parameter(f"{stem}{start + number - len(self.inputs) + 1}", last.type)
+
+    def position(self, name: str) -> int | None:
+        """The position from 0 of the input of that name, in any letter case; None where there is none."""
+        name = name.upper()
+        for number, parameter in enumerate(self.inputs):
+            if parameter.name == name:
+                return number
+        if self.extensible and re.fullmatch(r"[A-Z]+\d{1,3}", name):
+            stem, start = _numbered(self.inputs[-1].name)
+            if name.startswith(stem) and name[len(stem) :].isdigit():
+                number = int(name[len(stem) :]) - start + len(self.inputs) - 1
+                return number if number >= len(self.inputs) else None
+        return None
+
+
+def _numbered(name: str) -> tuple[str, int]:
+    stem = name.rstrip("0123456789")
+    return stem, int(name[len(stem) :])
+
+
+@cache
+def _data() -> Mapping[str, dict]:
+    return tomllib.loads((resource_dir("stdlib") / "functions.toml").read_text(encoding="utf-8"))
+
+
+@cache
+def _functions() -> Mapping[str, Signature]:
+    return {
+        name: Signature(
+            name,
+            tuple(Parameter(*text.split(": ")) for text in row["inputs"]),
+            row["result"],
+            row.get("operator"),
+            row.get("extensible", False),
+            row.get("optional", False),
+        )
+        for name, row in _data()["functions"].items()
+    }
+
+
+def generic_members(generic: str) -> list[str]:
+    """The names of the elementary types that a generic type stands for (figure 5)."""
+    return _data()["generic"][generic]
+
+
+@cache
+def standard_function(name: str) -> Signature | None:
+    """The standard function of that name in any letter case, typed names (`ADD_INT`) included; None if there is none."""
+    name = name.upper()
+    found = _functions().get(name)
+    if found is not None:
+        return found
+    stem, _, suffix = name.rpartition("_")
+    generic = _functions().get(stem)
+    if generic is None or generic.generic is None or suffix not in generic_members(generic.generic):
+        return None
+    return replace(generic, fixed=type_named(suffix))
+
+
+def function_names() -> list[str]:
+    """The names of the standard functions that users may call, without typed ones."""
+    return [name for name in _functions() if not name.startswith("__")]
+
+
+def is_planned_function(name: str) -> bool:
+    """Whether it is a standard function that this compiler does not have yet."""
+    name = name.upper()
+    return name in _data()["not_yet"]["functions"] or re.fullmatch(r"(\w+_)?(BCD_TO|TO_BCD)_\w+", name) is not None
+
+
+def is_planned_block(name: str) -> bool:
+    """Whether it is a standard block that this compiler does not have yet."""
+    return name.upper() in _data()["not_yet"]["blocks"]
+
+
+def block_name(name: str) -> str:
+    """The name that a standard block is declared by: `CTU` for `CTU_INT` (tables 45 and 46)."""
+    return _data()["blocks"]["other_names"].get(name.upper(), name)
+
+
+def typed_block_names() -> Mapping[str, str]:
+    """The standard blocks with a type in their name, and the blocks that they are."""
+    return _data()["blocks"]["other_names"]
+
+
+@cache
+def _parameter_aliases() -> Mapping[str, Mapping[str, str]]:
+    table = _data()["blocks"]["parameters"]
+    return {
+        block.casefold(): {long.casefold(): short.casefold() for long, short in names.items()}
+        for block, names in table.items()
+    }
+
+
+def parameter_key(block: Pou, key: str) -> str:
+    """The key that a parameter of a block is declared by: some standard blocks have long names, too (table 43)."""
+    if not block.span.file.is_stdlib:
+        return key
+    return _parameter_aliases().get(block.name.casefold(), {}).get(key, key)
