@@ -112,7 +112,7 @@ def _check_name(name: str, span: Span, diagnostics: Diagnostics) -> bool:
             span,
             "Accents and other alphabets can be used in comments and strings.",
         )
-    elif "__" in name or name == "_":
+    elif ("__" in name and not span.file.is_stdlib) or name == "_":
         diagnostics.add(
             "E0105", f"The name `{name}` has two `_` in a row, or nothing else; one between letters is allowed.", span
         )
