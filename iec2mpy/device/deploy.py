@@ -27,7 +27,6 @@ from iec2mpy.device.inspect import BoardState, check_fits, survey
 from iec2mpy.device.transport import Link, full_board
 
 _START_TIMEOUT = 20  # seconds for `main.py`: loading a large program takes a few
-_MAIN_MARK = "plc_boot"  # who starts the PLC from a main.py of their own has this in it
 _ACTIVE = "active"
 
 Progress = Callable[[int, int], None]
@@ -87,7 +86,7 @@ def deploy(link: Link, payload: Payload, progress: Progress) -> Deployed:
 
 
 def _check_main(board: BoardState) -> None:
-    if board.main is None or not board.main.strip() or _MAIN_MARK in board.main:
+    if board.main_starts_plc is not False:
         return
     hint = (
         "Rename it (`mpremote resume cp :main.py :mine.py + rm :main.py`), or put `import plc_boot; plc_boot.run()` "
@@ -153,7 +152,7 @@ def _is_intact(link: Link, folder: str, files: Mapping[str, bytes]) -> bool:
 def _write_root(link: Link, payload: Payload, board: BoardState) -> None:
     """What stands at the root works with the folders of old programs and of new ones."""
     files = dict(payload.root)
-    if board.main is None or not board.main.strip():
+    if board.main_starts_plc is None:
         files["main.py"] = payload.main.encode()
     for name, data in files.items():
         if not _is_intact(link, ".", {name: data}):

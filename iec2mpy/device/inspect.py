@@ -11,6 +11,9 @@ from iec2mpy.device.transport import Link
 OLDEST_RELEASE = (1, 23)
 """The first release of MicroPython that takes `.mpy` files of version 6.3."""
 
+PLC_STARTER = "plc_boot"
+"""The module that starts the PLC: who does that from a `main.py` of their own has the word in it."""
+
 _UPDATE = (
     f"Flash MicroPython {OLDEST_RELEASE[0]}.{OLDEST_RELEASE[1]} or later, from micropython.org; "
     "`iec2mpy boards NAME` says how."
@@ -41,48 +44,46 @@ if sys.platform in ('rp2','esp32'):
 def t(p):
  try:
   with open(p) as f:
-   return f.read(400)
+   return f.read().strip()
  except OSError:
-  return None
+  return ''
+m=t('main.py')
 i=sys.implementation
-s=os.statvfs('.')
-print((i.name,tuple(i.version)[:2],getattr(i,'_mpy',0),getattr(i,'_machine',sys.platform),t('active'),t('main.py'),
- [e[0] for e in os.ilistdir('.') if e[0].startswith('plc-')],s[0],s[0]*s[3]))
+print((i.name,tuple(i.version)[:2],getattr(i,'_mpy',0),getattr(i,'_machine',sys.platform),
+ t('active'),{mark!r} in m if m else None,
+ [e[0] for e in os.ilistdir('.') if e[0].startswith('plc-')],os.statvfs('.')[0]))
 """
 
 
 @dataclass(frozen=True, slots=True)
 class BoardState:
     """`release`: of MicroPython, two numbers. `mpy`: its `sys.implementation._mpy`. `active`: the folder of the program
-    that starts with the board, "" where there is none. `folders`: of programs, the active one among them. `main`: the
-    start of its `main.py`, or None. `block` and `free`: bytes, of its file system."""
+    that starts with the board, "" where there is none. `folders`: of programs, the active one among them.
+    `main_starts_plc`: whether its `main.py` does, None where there is none. `block`: bytes, of its file system."""
 
     release: tuple[int, int]
     mpy: int
     machine: str
     active: str
-    main: str | None
+    main_starts_plc: bool | None
     folders: tuple[str, ...]
     block: int
-    free: int
 
 
 def survey(link: Link) -> BoardState:
     """Looks at a board. Raises NotMicroPython for other Pythons."""
-    name, release, mpy, machine, active, main, folders, block, free = link.ask(_SURVEY)
+    name, release, mpy, machine, active, main, folders, block = link.ask(_SURVEY.format(mark=PLC_STARTER))
     if name != "micropython":
         hint = f"iec2mpy needs MicroPython. {_UPDATE}"
         raise NotMicroPython(f"The board on {link.port} runs {name}, not MicroPython.", hint)
-    folder = (active or "").strip()
     return BoardState(
         release=(release[0], release[1]),
         mpy=mpy,
         machine=machine,
-        active=folder if folder in folders else "",
-        main=main,
+        active=active if active in folders else "",
+        main_starts_plc=main,
         folders=tuple(folders),
         block=max(block, 1),
-        free=free,
     )
 
 

@@ -55,11 +55,13 @@ def test_program_runs_and_the_prompt_stays_free(board: Board) -> None:
     assert done.status["running"]
     assert done.status["program"] == "step1"
     assert entries(board) == ["active", "main.py", done.folder, "plc_boot.mpy"]
+    before = time.monotonic()
     first = plc(board, 'plc.read("main.count")')
-    time.sleep(0.2)
+    time.sleep(0.3)
     second = plc(board, 'plc.read("main.count")')
+    elapsed = time.monotonic() - before
     assert first > 0
-    assert 15 <= second - first <= 60  # 10 ms each, and the time to ask
+    assert 10 <= second - first <= elapsed / 0.01 + 2  # a scan each 10 ms; a busy host may lose some
     plc(board, 'plc.write("main.button", True)')
     assert plc(board, 'plc.read("main.button")') is True
 
@@ -168,7 +170,7 @@ def test_main_of_somebody_else_is_not_touched(board: Board) -> None:
 
 
 def test_main_of_somebody_else_may_start_the_plc(board: Board) -> None:
-    text = "import plc_boot\nmine = 1\nplc_boot.run()\n"
+    text = f"# {'x' * 500}\nimport plc_boot\nmine = 1\nplc_boot.run()\n"
     (board.files / "main.py").write_text(text)
     assert put(board, counting(1)).status["running"]
     assert (board.files / "main.py").read_text() == text

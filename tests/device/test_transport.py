@@ -175,7 +175,7 @@ class RawRepl:
 
 
 def surveyed(name: str, release: tuple[int, int], mpy: int) -> str:
-    return repr((name, release, mpy, "test board", None, None, [], 4096, 1_000_000)) + "\r\n"
+    return repr((name, release, mpy, "test board", "", None, [], 4096)) + "\r\n"
 
 
 def test_micropython_that_is_too_old() -> None:

@@ -118,14 +118,11 @@ def test_project_file_that_is_a_folder(tmp_path: Path) -> None:
     assert [d.code for d in errors(tmp_path)] == ["E0001"]
 
 
-def test_empty_project_file(tmp_path: Path) -> None:
-    (tmp_path / "iec2mpy.toml").write_text("")
-    assert [d.code for d in errors(tmp_path)] == ["E0834"]
-
-
-def test_project_that_is_no_table(tmp_path: Path) -> None:
-    (tmp_path / "iec2mpy.toml").write_text('project = "tank"\n')
-    assert [d.code for d in errors(tmp_path)] == ["E0833"]
+@pytest.mark.parametrize(("text", "code"), [("", "E0834"), ('project = "tank"\n', "E0833")])
+def test_project_file_without_its_table(make_project: MakeProject, text: str, code: str) -> None:
+    directory = make_project()
+    (directory / "iec2mpy.toml").write_text(text)
+    assert [d.code for d in errors(directory)] == [code]
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from iec2mpy.project.boards import read_board
 from iec2mpy.project.config import load_project
 from iec2mpy.source.diagnostics import CompileError
 
@@ -33,3 +34,20 @@ def test_example(code: str, which: str, text: str, tmp_path: Path) -> None:
 
 def test_there_are_examples() -> None:
     assert len(_EXAMPLES) >= 20
+
+
+def test_example_of_the_page_about_boards(tmp_path: Path) -> None:
+    page = (_PAGES.parent / "boards.md").read_text(encoding="utf-8")
+    (text,) = re.findall(r"```toml\n(\[project\].*?)```", page, re.DOTALL)
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src" / "main.st").write_text("")
+    (tmp_path / "iec2mpy.toml").write_text(text)
+    assert load_project(tmp_path).board.channels["%QX1.0"].label == "pump relay"
+
+
+def test_board_of_the_page_about_boards(tmp_path: Path) -> None:
+    page = (_PAGES.parent / "boards.md").read_text(encoding="utf-8")
+    (text,) = re.findall(r"```toml\n(\[board\].*?)```", page, re.DOTALL)
+    path = tmp_path / "my_board.toml"
+    path.write_text(text)
+    assert read_board(path).channels["%QX0.0"].pin == 25
