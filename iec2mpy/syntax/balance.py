@@ -26,7 +26,7 @@ _DEEPENING = frozenset({
     "PLUS", "MINUS", "TIMES", "DIVIDE", "MOD", "POWER", "AND", "OR", "XOR", "EQ", "NE", "LT", "GT", "LE", "GE",
     "DOT", "CARET", "REF_TO",
 })  # fmt: skip
-_RELEVANT = _BREAKS | _DEEPENING | {"LPAR", "RPAR", "LSQB", "RSQB", "MISSPELT", "COMMA"}
+_RELEVANT = {"ARRAY"} | _BREAKS | _DEEPENING | {"LPAR", "RPAR", "LSQB", "RSQB", "MISSPELT", "COMMA"}
 _STATEMENT_BOUNDARY = frozenset({"SEMICOLON", "THEN", "DO", "ELSE", "REPEAT", "COLON"})
 _OPERAND_START = frozenset({"NAME", "LITERAL", "INTEGER", "ENUM_VALUE", "NOT"})
 _USED_AS_NAME = frozenset({"ASSIGN", "COLON", "COMMA", "AT", "RPAR"})
@@ -72,6 +72,8 @@ class _Balancer:
         self._depths: list[tuple[int, int]] = []
         self._operators = 0
         self._inner = 0
+        self._pairs: list[tuple[Token, Token]] = []  # blocks that were closed, with their END_ word
+        self._with_else_if: set[int] = set()  # where those IFs start that have an `ELSE IF`
 
     def run(self) -> list[Token] | None:
         out, tokens = self._out, self._tokens
@@ -122,14 +124,32 @@ class _Balancer:
             token = token_or_none
         elif kind in _DEEPENING:
             self._operators += 1
+        elif kind == "ARRAY" and self._tokens[at + 1].type in ("INTEGER", "NAME", "MINUS"):
+            self._out.append(token)
+            token = token.inserted_after("LSQB", "[")
+            self._diagnostics.add(
+                "E0116",
+                f"`[` is missing after `{self._out[-1].text}`.",
+                self._out[-1].span,
+                "Such as `ARRAY[1..5] OF INT`.",
+            )
+            self._brackets.append(token)
+            self._depths.append((self._operators, self._inner))
         elif kind == "COMMA":
             self._inner = max(self._inner, self._operators)
             self._operators = 0
         elif kind in _BREAKS:
+            if kind == "SEMICOLON" and self._brackets and self._is_meant_as_comma(at):
+                message = f"`;` cannot stand between `{self._brackets[-1].text}` and its partner."
+                self._diagnostics.add("E0116", message, token.span, "`,` separates what stands in brackets.")
+                self._out.append(token.as_type("COMMA", bad=True))
+                return True
             self._close_open_brackets()
             if kind != "OF":
                 self._operators = self._inner = 0
             if kind in self._ends:
+                if kind == "IF" and self._blocks and self._out[-1].type == "ELSE" and self._out[-1].line == token.line:
+                    self._with_else_if |= {self._blocks[-1].start, token.start}
                 self._blocks.append(token)
             elif kind in _END_WORDS:
                 return self._close_block(token, at)
@@ -159,6 +179,17 @@ class _Balancer:
             return token.as_type(expected)
         return token
 
+    def _is_meant_as_comma(self, at: int) -> bool:
+        """Whether the open brackets of the `;` at this index are closed before the next `;` or keyword."""
+        open_brackets = len(self._brackets)
+        for token in self._tokens[at + 1 :]:
+            if token.type in _BREAKS:
+                return False
+            open_brackets += (token.type in _CLOSING) - (token.type in _BRACKETS)
+            if open_brackets == 0:
+                return True
+        return False
+
     def _close_open_brackets(self) -> None:
         while self._brackets:
             opening = self._brackets.pop()
@@ -176,7 +207,7 @@ class _Balancer:
         for depth in range(len(blocks) - 1, -1, -1):
             if _ENDS[blocks[depth].type] == token.type:
                 self._close_blocks_above(depth + 1, token)
-                blocks.pop()
+                self._pairs.append((blocks.pop(), token))
                 self._out.append(token)
                 return True
         if blocks and self._next_end(at) != _ENDS[blocks[-1].type]:
@@ -201,22 +232,26 @@ class _Balancer:
         while len(self._blocks) > depth:
             opener = self._blocks.pop()
             end = _ENDS[opener.type]
-            hint = None
-            if opener.type == "IF" and self._is_else_if(opener):
-                hint = "`ELSE IF` starts a second IF, which needs an END_IF of its own; `ELSIF` does not."
             if not token.bad:
-                self._diagnostics.add(
-                    "E0114", f"`{end}` is missing: this `{opener.text}` of line {opener.line} is never closed.", token.span, hint,
-                    [Related(opener.span, "opened here")],
-                )  # fmt: skip
+                meant = self._probably_open(opener)
+                hint = None
+                if meant.start in self._with_else_if:
+                    hint = "`ELSE IF` starts a second IF, which needs an END_IF of its own; `ELSIF` does not."
+                message = f"`{end}` is missing: this `{meant.text}` of line {meant.line} is never closed."
+                self._diagnostics.add("E0114", message, token.span, hint, [Related(meant.span, "opened here")])
             last = self._out[-1]
             self._out.append(last.inserted_after(end, end))
             if end in BLOCK_ENDS.values() or end == "END_STRUCT":
                 self._out.append(last.inserted_after("SEMICOLON", ";"))
 
-    def _is_else_if(self, opener: Token) -> bool:
-        before = [token for token in self._tokens if token.end <= opener.start][-1:]
-        return bool(before) and before[0].type == "ELSE" and before[0].line == opener.line
+    def _probably_open(self, opener: Token) -> Token:
+        """Which block lacks its end: an inner one of the same kind took the outer one's, if indentation says so."""
+        column = opener.span.column
+        for inner, end in self._pairs:
+            if inner.start > opener.start and inner.type == opener.type and inner.line < end.line:
+                if end.span.column == column and inner.span.column > column:
+                    return inner
+        return opener
 
     # ---------------------------------------------------------------------------------------------- words
 

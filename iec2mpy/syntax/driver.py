@@ -27,8 +27,8 @@ _SYNCHRONIZING = frozenset({
 """Tokens at which reading can start again."""
 
 _BRIDGES: tuple[tuple[str, ...], ...] = (
-    (), ("ERROR",), ("SEMICOLON",), ("ERROR", "SEMICOLON"), ("THEN",), ("ERROR", "THEN"), ("DO",), ("ERROR", "DO"),
-    ("OF",), ("ERROR", "OF"), ("ASSIGN", "ERROR"), ("TO", "ERROR"), ("TO", "ERROR", "DO"), ("ASSIGN", "ERROR", "TO", "ERROR", "DO"),
+    (), ("ERROR",), ("ASSIGN", "ERROR"), ("SEMICOLON",), ("ERROR", "SEMICOLON"), ("THEN",), ("ERROR", "THEN"), ("DO",), ("ERROR", "DO"),
+    ("OF",), ("ERROR", "OF"), ("UNTIL", "ERROR"), ("RANGE", "ERROR"), ("TO", "ERROR"), ("TO", "ERROR", "DO"), ("ASSIGN", "ERROR", "TO", "ERROR", "DO"),
     ("ERROR", "TO", "ERROR", "DO"), ("COLON", "ERROR"), ("COLON", "ERROR", "SEMICOLON"), ("ERROR", "ON", "NAME"),
 )  # fmt: skip
 """What can be put between what was read and the token at which reading goes on, the likeliest first."""
@@ -54,6 +54,7 @@ class _Driver:
         self._at = 0
         self._diagnostics = diagnostics
         self._errors = 0
+        self._lost_end = False  # an END_ word was skipped: that its block is open at the end is no further mistake
 
     def run(self) -> Any:
         rows, rules, states, values, tokens = self._rows, self._rules, self._states, self._values, self._tokens
@@ -92,8 +93,9 @@ class _Driver:
         self._errors += 1
         if self._errors > _MOST_ERRORS:
             return False
-        previous = self._tokens[self._at - 1] if self._at else token
-        silent = token.bad or previous.bad
+        start = Token("$START", "", token.start, token.start, token.file)
+        previous = self._tokens[self._at - 1] if self._at else start
+        silent = token.bad or previous.bad or (self._lost_end and token.type == "$END")
         following = self._tokens[min(self._at + 1, len(self._tokens) - 1)]
         situation = messages.Situation(previous, token, following, tuple(self._values), self.accepts, self._expected())
         finding = messages.explain(situation)
@@ -149,6 +151,7 @@ class _Driver:
                             return True
             if token.type == "$END":
                 return False
+            self._lost_end = self._lost_end or token.type.startswith("END_")
             self._at += 1
 
     @staticmethod

@@ -20,7 +20,7 @@ _TOKEN = re.compile(
     (?P<typed>[A-Za-z_]\w*\#)
   | (?P<name>[^\W\d]\w*)
   | (?P<comment>//|\(\*|/\*)
-  | (?P<symbol>:=|:[ \t]+=|=>|\?=|<>|<=|>=|\*\*|\.\.|==|!=|&&|\|\||\+=|-=|\*=|/=|[;:,()\[\].=<>+\-*/&^?!|])
+  | (?P<symbol>:=|:[ \t]+=|=>|\?=|<>|<=|>=|\*\*|\.\.\.|\.\.|==|\+\+(?=[ \t]*;)|--(?=[ \t]*;)|!=|&&|\|\||\+=|-=|\*=|/=|[;:,()\[\].=<>+\-*/&^?!|])
   | (?P<based>\d+\#[+-]?\w*)
   | (?P<number>\d\w*(?:\.\d\w*(?:(?<=[eE])[+-]\d\w*)?)?)
   | (?P<string>['"])
@@ -41,11 +41,12 @@ SYMBOLS = {
 
 _FOREIGN_SYMBOLS = {
     "==": ("EQ", "`=`"), "!=": ("NE", "`<>`"), "&&": ("AND", "`AND`"), "||": ("OR", "`OR`"), "!": ("NOT", "`NOT`"),
-    "|": ("OR", "`OR`"), "%": ("MOD", "`MOD`"),
+    "|": ("OR", "`OR`"), "%": ("MOD", "`MOD`"), "...": ("RANGE", "`..`"),
 }  # fmt: skip
 """Operators of C and its like: what they are read as, and what to write instead."""
 
-_COMPOUND_ASSIGNMENTS = {"+=", "-=", "*=", "/="}
+_COMPOUND_ASSIGNMENTS = {"+=": "+ …", "-=": "- …", "*=": "* …", "/=": "/ …", "++": "+ 1", "--": "- 1"}
+_TYPOGRAPHIC_QUOTES = {"“": "”", "„": "“", "”": "”", "‘": "’", "’": "’", "‚": "‘"}
 
 _COMMENT_MARKS = {"(*": ("*)", re.compile(r"\(\*|\*\)")), "/*": ("*/", re.compile(r"/\*|\*/"))}
 _DRAWN = re.compile(r"\{\s*(LD|FBD)\s*\}", re.IGNORECASE)
@@ -127,13 +128,9 @@ def _foreign_symbol(file: SourceFile, start: int, end: int, diagnostics: Diagnos
     text = file.text[start:end]
     span = Span(file, start, end)
     if text in _COMPOUND_ASSIGNMENTS:
-        diagnostics.add(
-            "E0118",
-            f"`{text}` is not an operator of this language.",
-            span,
-            f"Write `x := x {text[0]} …`, with the name twice.",
-        )
-        return Token("UNKNOWN", text, start, end, file, None, True)
+        hint = f"Write `x := x {_COMPOUND_ASSIGNMENTS[text]}`, with the name twice."
+        diagnostics.add("E0118", f"`{text}` is not an operator of this language.", span, hint)
+        return Token("ASSIGN", text, start, end, file, None, True)
     if text.startswith(":"):
         diagnostics.add("E0117", "`:=` is written without a space.", span)
         return Token("ASSIGN", text, start, end, file)
@@ -220,15 +217,27 @@ def _pragma(file: SourceFile, start: int, _end: int, diagnostics: Diagnostics) -
 
 def _other(file: SourceFile, start: int, end: int, diagnostics: Diagnostics) -> tuple[Token | None, int]:
     character = file.text[start]
+    if character in _TYPOGRAPHIC_QUOTES:
+        return _typographic_string(file, start, diagnostics)
     shown = f"`{character}`" if character.isprintable() else f"The character U+{ord(character):04X}"
-    hint = {
-        "‘": "Strings are written with `'`.",
-        "’": "Strings are written with `'`.",
-        "“": 'Write `"`.',
-        "”": 'Write `"`.',
-    }
-    diagnostics.add("E0101", f"{shown} has no meaning in a program.", Span(file, start, end), hint.get(character))
+    diagnostics.add("E0101", f"{shown} has no meaning in a program.", Span(file, start, end))
     return Token("UNKNOWN", character, start, end, file, None, True), end
+
+
+def _typographic_string(file: SourceFile, start: int, diagnostics: Diagnostics) -> tuple[Token, int]:
+    """Text between quotes as word processors set them: read as a string, so that it costs one message."""
+    opening = file.text[start]
+    line_end = file.text.find("\n", start)
+    line_end = len(file.text) if line_end < 0 else line_end
+    closing = file.text.find(_TYPOGRAPHIC_QUOTES[opening], start + 1, line_end)
+    end = closing + 1 if closing >= 0 else start + 1
+    span = Span(file, start, end)
+    right = '"' if opening in "“„”" else "'"
+    diagnostics.add(
+        "E0101", f"`{opening}` has no meaning in a program.", span, f"Strings stand between `{right}` and `{right}`."
+    )
+    kind = "wstring" if right == '"' else "string"
+    return Token("LITERAL", span.text, start, end, file, Literal(kind, "", None, span), True), end
 
 
 _OTHERS = {

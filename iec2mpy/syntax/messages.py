@@ -14,6 +14,7 @@ from iec2mpy.source.spans import Span
 from iec2mpy.syntax.keywords import BLOCK_ENDS, KEYWORDS, STATEMENT_WORDS
 from iec2mpy.syntax.lexer import SYMBOLS
 from iec2mpy.syntax.tokens import Token
+from iec2mpy.syntax.tree import BinaryExpr
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +55,7 @@ _SHOWN = {terminal: text for text, terminal in SYMBOLS.items()} | {
     "STRING": "a type", "$END": "the end",
 }  # fmt: skip
 
-_GLUE = ("COLON", "ASSIGN", "COMMA", "TO", "DO", "THEN", "OF", "RPAR", "RSQB", "LSQB", "RANGE", "LPAR", "ON", "UNTIL")
+_GLUE = ("COLON", "ASSIGN", "COMMA", "TO", "DO", "THEN", "OF", "RPAR", "RSQB", "RANGE", "LPAR", "ON", "UNTIL")
 """Signs and words that are found to be missing by trying whether they would fit."""
 
 _OPERATORS = frozenset(
@@ -64,6 +65,7 @@ _OPERANDS = frozenset({"NAME", "INTEGER", "LITERAL", "ENUM_VALUE", "DIRECT", "LP
 _CONTINUES_NAME = frozenset({"ASSIGN", "LPAR", "DOT", "LSQB", "CARET", "EQ", "COLON"})
 _ENDS_STATEMENT = frozenset({*STATEMENT_WORDS, *BLOCK_ENDS.values(), "ELSE", "ELSIF", "UNTIL", "END_VAR", "END_STRUCT", "END_TYPE", "END_RESOURCE",
                              "END_CONFIGURATION", "TASK", "PROGRAM", "RESOURCE", "VAR", "VAR_GLOBAL", "$END"})  # fmt: skip
+_BEFORE_VALUE = frozenset({"LPAR", "ASSIGN", "COMMA", "LSQB", "SEMICOLON", "OF", "COLON", "$START"})
 _HEAD_WORDS = {"THEN": "IF and ELSIF have THEN", "DO": "FOR and WHILE have DO", "OF": "CASE has OF"}
 
 
@@ -82,7 +84,9 @@ def explain(situation: Situation) -> Finding:
 
 
 def _text(token: Token) -> str:
-    return f"`{token.text}`" if token.text else "the end of the file"
+    if token.text:
+        return f"`{token.text}`"
+    return "the beginning" if token.type == "$START" else "the end of the file"
 
 
 def _missing_after(previous: Token) -> Span:
@@ -155,13 +159,11 @@ def _assignment_sign(s: Situation) -> Finding | None:
 
 def _comparison_as_statement(s: Situation) -> Finding | None:
     """Between the labels of a CASE, `x = 1;` reads as a label up to its `;`."""
-    if s.token.type != "SEMICOLON" or not s.accepts("COLON") or s.accepts("SEMICOLON"):
+    if s.token.type != "SEMICOLON" or not s.accepts("COLON", "EXIT", "SEMICOLON"):
         return None
-    for value in reversed(s.values):
-        if isinstance(value, Token) and value.type == "EQ":
-            return Finding("E0117", "`=` compares; `:=` assigns.", value.span, "Write `:=`.")
-        if isinstance(value, Token):
-            break
+    last = s.values[-1]
+    if isinstance(last, BinaryExpr) and last.operator == "=":
+        return Finding("E0117", "`=` compares; `:=` assigns.", last.operator_span, "Write `:=`.")
     return Finding(
         "E0120", "This is neither a label of the CASE nor a statement.", s.previous.span, "A label ends with `:`."
     )
@@ -228,8 +230,56 @@ def _semicolon(s: Situation) -> Finding | None:
     return None
 
 
+def _end_of_repeat(s: Situation) -> Finding | None:
+    if s.token.type == "SEMICOLON" and s.accepts("END_REPEAT"):
+        message = "No `;` stands between the condition of UNTIL and END_REPEAT."
+        return Finding("E0121", message, s.token.span, "`UNTIL condition END_REPEAT;`", drop=1)
+    if s.token.type == "END_REPEAT" and s.accepts("UNTIL"):
+        message = "`UNTIL` and its condition are missing before `END_REPEAT`."
+        return Finding("E0119", message, s.token.span, "`REPEAT … UNTIL condition END_REPEAT;`")
+    return None
+
+
+def _return_value(s: Situation) -> Finding | None:
+    if s.previous.type == "RETURN" and s.token.type in _OPERANDS and not s.new_line:
+        hint = "A function's result is assigned to its name before RETURN."
+        return Finding("E0121", "RETURN has no value.", s.token.span, hint)
+    return None
+
+
+def _foreign_character(s: Situation) -> Finding | None:
+    if s.token.type == "QUESTION":
+        return Finding("E0101", "`?` has no meaning in a program.", s.token.span)
+    return None
+
+
+def _declaration(s: Situation) -> Finding | None:
+    """Mistakes that are made between a variable's name and its `;`."""
+    token, previous = s.token, s.previous
+    if previous.type == "AT":
+        return Finding("E0119", "An address is missing after `AT`.", previous.span, "Such as `AT %IX0.0`.")
+    if token.type in ("SEMICOLON", "ASSIGN", "EQ") and s.accepts("COLON", "ELEMENTARY", "SEMICOLON"):
+        return Finding(
+            "E0119", f"The type of {_text(previous)} is missing.", previous.span, f"Such as `{previous.text} : INT;`."
+        )
+    if token.type == "LPAR" and previous.type == "STRING":
+        message = f"The length of a {previous.text.upper()} stands in square brackets."
+        return Finding(
+            "E0121",
+            message,
+            token.span,
+            f"Such as `{previous.text}[20]`.",
+            drop=3 if s.following.type == "INTEGER" else 0,
+        )
+    if token.type in ("RSQB", "COMMA") and s.accepts("RANGE") and not s.accepts(token.type):
+        return Finding(
+            "E0119", "An array has a first and a last index.", previous.span, f"Such as `[1..{previous.text}]`."
+        )
+    return None
+
+
 def _statement_start(s: Situation) -> Finding | None:
-    if not s.accepts("EXIT"):
+    if not s.accepts("EXIT") or (s.accepts("LITERAL") and s.token.type in _OPERATORS | {"RANGE"}):
         return None
     token = s.token
     if token.type in ("INTEGER", "LITERAL", "ENUM_VALUE"):
@@ -261,7 +311,7 @@ def _value(s: Situation) -> Finding | None:
             s.token.span,
             "Put the second sign and its value into brackets.",
         )
-    if s.token.type in _OPERATORS and s.previous.type in ("LPAR", "ASSIGN", "COMMA", "LSQB"):
+    if s.token.type in _OPERATORS | {"RANGE"} and s.previous.type in _BEFORE_VALUE:
         return Finding("E0119", f"A value is missing before {_text(s.token)}.", s.token.span)
     return Finding("E0119", f"A value is missing after {_text(s.previous)}.", _missing_after(s.previous))
 
@@ -290,24 +340,25 @@ def _enumerated_in_list(s: Situation) -> Finding | None:
 
 
 def _glue(s: Situation) -> Finding | None:
-    for terminal in _GLUE:
-        if not s.accepts(terminal, s.token.type) or (terminal in ("RPAR", "RSQB") and s.token.type in _OPERANDS):
-            continue
-        if (terminal == "LSQB" and s.previous.type != "ARRAY") or (terminal == "LPAR" and len(s.expected) > 1):
-            continue
-        if (
-            terminal == "ASSIGN"
-            and s.token.type in ("NAME", "LPAR")
-            and not s.accepts("ASSIGN", s.token.type, s.following.type)
-        ):
-            continue
-        between = (
-            f"between {_text(s.previous)} and {_text(s.token)}" if not s.new_line else f"after {_text(s.previous)}"
-        )
-        return Finding(
-            "E0119", f"`{shown_type(terminal)}` is missing {between}.", _missing_after(s.previous), insert=terminal
-        )
+    """A sign or word that would fit before this token; best one that fits with the token behind it, too."""
+    fitting = [terminal for terminal in _GLUE if _may_be_missing(terminal, s) and s.accepts(terminal, s.token.type)]
+    well = [terminal for terminal in fitting if s.accepts(terminal, s.token.type, s.following.type)]
+    for terminal in well or fitting:
+        between = f"after {_text(s.previous)}" if s.new_line else f"between {_text(s.previous)} and {_text(s.token)}"
+        message = f"`{shown_type(terminal)}` is missing {between}."
+        return Finding("E0119", message, _missing_after(s.previous), insert=terminal)
     return None
+
+
+def _may_be_missing(terminal: str, s: Situation) -> bool:
+    """Whether this is not only possible but likely."""
+    if terminal in ("RPAR", "RSQB"):
+        return s.token.type not in _OPERANDS
+    if terminal == "LPAR":
+        return len(s.expected) == 1
+    if terminal == "ASSIGN" and s.token.type in ("NAME", "LPAR"):
+        return s.accepts("ASSIGN", s.token.type, s.following.type)
+    return True
 
 
 def _operator(s: Situation) -> Finding | None:
@@ -331,26 +382,30 @@ def _name(s: Situation) -> Finding | None:
 
 
 def _general(s: Situation) -> Finding:
-    fitting = list(dict.fromkeys(shown_type(terminal) for terminal in s.expected))[:5]
+    names = [name for name in s.expected if name not in _OPERATORS]
+    fitting = list(dict.fromkeys(shown_type(name) for name in names))[:5]
+    if len(names) < len(s.expected):
+        fitting.append("an operator")
     shown = [text if text.startswith(("a ", "an ", "the ")) else f"`{text}`" for text in fitting]
-    hint = f"What fits here: {', '.join(shown)}." if shown else None
     if len(shown) == 1:
-        return Finding(
-            "E0119",
-            f"{shown[0][0].upper()}{shown[0][1:]} is missing after {_text(s.previous)}.",
-            _missing_after(s.previous),
-        )
+        missing = f"{shown[0][0].upper()}{shown[0][1:]} is missing after {_text(s.previous)}."
+        return Finding("E0119", missing, _missing_after(s.previous))
+    hint = f"What fits here: {', '.join(shown)}." if shown else None
     return Finding("E0121", f"{_text(s.token)} cannot stand after {_text(s.previous)}.", s.token.span, hint)
 
 
 _RULES: tuple[Callable[[Situation], Finding | None], ...] = (
+    _foreign_character,
     _split_number,
     _output_expression,
     _assignment_sign,
     _comparison_as_statement,
     _keyword_as_name,
+    _return_value,
+    _end_of_repeat,
     _operator_without_left_side,
     _head_word,
+    _declaration,
     _semicolon,
     _enumerated_in_list,
     _statement_start,

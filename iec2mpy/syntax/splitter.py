@@ -312,6 +312,8 @@ class _Splitter:
                 self._method()
             elif kind == "USING":
                 self._using()
+            elif kind == "SEMICOLON" and self._last().type == "END_VAR" and self._peek().type in _SECTION_STARTS:
+                self._report("E0121", "No `;` stands after `END_VAR`.", self._take().span)
             elif kind in _POU_STOPS and not self._is_name(self._at):
                 break
             else:
@@ -372,7 +374,7 @@ class _Splitter:
                 tokens.append(self._take())
             if self._token.type == "OF":
                 tokens.append(self._take())
-        while self._token.type in ("ELEMENTARY", "STRING", *_NAMES):
+        while self._token.type in ("ELEMENTARY", "STRING", *_NAMES) and self._peek().type not in ("ASSIGN", "LPAR"):
             tokens.append(self._take())
             if self._token.type != "DOT":
                 break
