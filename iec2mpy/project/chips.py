@@ -1,7 +1,7 @@
 """What the chips of boards can do: the architecture of their machine code, and what each pin is able to.
 
-Facts are from the vendors' pages, named at each chip; those of MicroPython (architectures, native emitters) from its sources and
-documentation.
+Facts are from the pages of the vendors, named at each chip; those of MicroPython (architectures, native emitters) are
+from its sources and documentation.
 """
 
 from __future__ import annotations
