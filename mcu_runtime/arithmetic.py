@@ -1,16 +1,16 @@
-"""Operations that generated code does not write out: conversions of REAL, mathematical functions, powers.
+"""Operations that generated code does not write out: conversions of REAL, mathematical functions.
 
 Where MicroPython and CPython differ (what they raise, what overflows), the rule is here, once: an argument outside of a
 function's domain faults `range`, overflow gives infinity, and NaN passes through.
 """
 
 import math
+import struct
 from array import array
 
-from mcu_runtime.faults import RANGE, ZERO
+from mcu_runtime.faults import RANGE
 
 _INFINITY = float("inf")
-_WORD = 0xFFFFFFFF
 _single = array("f", [0.0])
 
 
@@ -40,10 +40,14 @@ def real_trunc(x, low, high):
     return n
 
 
-def real_div(a, b):
-    if b == 0.0:
-        raise ZERO
-    return a / b
+def real_to_bits(x):
+    """The bits of a single, as an unsigned number (6.6.2.5.5)."""
+    return struct.unpack("<I", struct.pack("<f", x))[0]
+
+
+def bits_to_real(bits):
+    """The single that has these 32 bits; they may come with a sign."""
+    return struct.unpack("<f", struct.pack("<I", bits & 0xFFFFFFFF))[0]
 
 
 def _defined(function):
@@ -88,37 +92,3 @@ def real_pow(a, b):
         return math.pow(a, b)
     except (OverflowError, ValueError):
         return -_INFINITY if a < 0.0 and math.fmod(b, 2.0) != 0.0 else _INFINITY
-
-
-def int_pow(a, b):
-    """The low 32 bits of the power, as an unsigned number; a negative exponent faults `range`."""
-    if b < 0:
-        raise RANGE
-    result = 1
-    a &= _WORD
-    while b:
-        if b & 1:
-            result = result * a & _WORD
-        a = a * a & _WORD
-        b >>= 1
-    return result
-
-
-def unsigned_div(a, b):
-    """Quotient of two 32-bit patterns, as a pattern."""
-    b &= _WORD
-    if b == 0:
-        raise ZERO
-    return _pattern((a & _WORD) // b)
-
-
-def unsigned_mod(a, b):
-    """Remainder of two 32-bit patterns, as a pattern; 0 where the divisor is 0 (table 29)."""
-    b &= _WORD
-    if b == 0:
-        return 0
-    return _pattern((a & _WORD) % b)
-
-
-def _pattern(n):
-    return n - 0x100000000 if n > 0x7FFFFFFF else n

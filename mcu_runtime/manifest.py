@@ -11,6 +11,7 @@ PACKAGE = (
     "controller",
     "faults",
     "memory",
+    "memory",
     "names",
     "ports",
     "process_image",

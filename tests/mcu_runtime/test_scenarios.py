@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from iec2mpy.simulator.engines.child import find_micropython
+from mcu_runtime import manifest
 
 HERE = Path(__file__).parent
 CHECKOUT = HERE.parent.parent
@@ -53,3 +54,8 @@ def test_compiles_for_boards(module: Path, tmp_path: Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert target.stat().st_size < 4096
+
+
+def test_every_module_goes_to_the_board_but_the_manifest() -> None:
+    deployed = [*manifest.PACKAGE, *manifest.FOLDER, *manifest.ROOT, "manifest"]
+    assert sorted(deployed) == sorted(path.stem for path in RUNTIME)
