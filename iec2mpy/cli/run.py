@@ -157,11 +157,11 @@ def _show_last(
 
     last = values(simulation, watched)
     if as_json:
-        groups: dict[str, dict[str, object]] = {"input": {}, "output": {}, "watched": {}}
+        groups: dict[str, dict[str, object]] = {"inputs": {}, "outputs": {}, "watched": {}}
         for variable, value in zip(watched, last, strict=True):
             groups[variable.group][variable.path] = value
         stopped = None if fault is None else dataclasses.asdict(fault)
-        click.echo(json.dumps({"name": name, "scans": count, "values": groups, "fault": stopped}, indent=1))
+        click.echo(json.dumps({"name": name, "scans": count, **groups, "fault": stopped}, indent=1))
         return
     from rich.console import Console
 

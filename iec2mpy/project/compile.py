@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from iec2mpy import backends, ir, passes, semantics, syntax
 from iec2mpy.backends import GeneratedProgram, Target, TooLarge
+from iec2mpy.semantics.stdlib import stdlib_files
 from iec2mpy.semantics.typed import Application
 from iec2mpy.source.diagnostics import CompileError, Diagnostic, Diagnostics
 from iec2mpy.source.spans import SourceFile
@@ -24,9 +25,12 @@ class Checked:
 
 
 def check_files(files: Sequence[SourceFile], interval_us: int = DEFAULT_INTERVAL_US) -> Checked:
-    """The checked program of all files together. Raises CompileError with every diagnostic, warnings included."""
+    """The checked program of all files together, with the standard blocks that they use.
+
+    Raises CompileError with every diagnostic, warnings included.
+    """
     diagnostics = Diagnostics()
-    units = [syntax.parse(file, diagnostics) for file in files]
+    units = [syntax.parse(file, diagnostics) for file in (*files, *stdlib_files(file.text for file in files))]
     application = semantics.check(units, diagnostics, interval_us)
     if application is None or diagnostics.has_errors:
         raise CompileError(diagnostics.items)

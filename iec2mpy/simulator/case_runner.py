@@ -67,6 +67,16 @@ def run_case(case: Case | BadCase, engines: Sequence[str]) -> Outcome:
     """
     if isinstance(case, BadCase):
         return Outcome(case, ERROR, case.message)
+    try:
+        return _run_on_all(case, engines)
+    except EngineUnavailable:
+        raise
+    except Exception as error:
+        # one fault of the compiler must not hide what became of all other cases
+        return Outcome(case, ERROR, f"a fault of iec2mpy itself, please report it: {type(error).__name__}: {error}")
+
+
+def _run_on_all(case: Case, engines: Sequence[str]) -> Outcome:
     programs = Programs(case)
     if case.error is not None:
         return _expect_error(case, case.error, programs, engines[0])
@@ -89,8 +99,9 @@ def _expect_error(case: Case, expected: ExpectedError, programs: Programs, engin
             return Outcome(case, PASSED)
         found = _list(errors)
     else:
-        found = "it compiles without an error"
-    return Outcome(case, FAILED, f"expected an error ({expected.about}) on line {expected.line}; found: {found}")
+        errors, found = [], "it compiles without an error"
+    message = f"expected an error ({expected.about}) on line {expected.line}; found: {found}"
+    return Outcome(case, FAILED, message, errors)
 
 
 def _is_at(diagnostic: Diagnostic, expected: ExpectedError) -> bool:

@@ -16,7 +16,7 @@ _DRAWN = {"bool": "bool", "integer": "number", "unsigned32": "number", "real": "
 
 @dataclass(frozen=True, slots=True)
 class Watched:
-    """One value that is watched. `group`: "input", "output" or "watched"."""
+    """One value that is watched. `group`: "inputs", "outputs" or "watched"."""
 
     group: str
     leaf: Leaf
@@ -38,7 +38,7 @@ class Watched:
 def watch(memory_map: MemoryMap, paths: Sequence[str]) -> list[Watched]:
     """All inputs, all outputs, then what `paths` name, each variable once. Raises UnknownPath."""
     watched: dict[tuple[str, int], Watched] = {}
-    for area, group in (("%I", "input"), ("%Q", "output")):
+    for area, group in (("%I", "inputs"), ("%Q", "outputs")):
         located = (v for v in memory_map.variables if v.address and v.address.upper().startswith(area))
         for variable in sorted(located, key=lambda v: _address_key(v.address or "")):
             leaf = Leaf(variable, variable.path, variable.slot)
