@@ -11,7 +11,6 @@ PACKAGE = (
     "controller",
     "faults",
     "memory",
-    "memory",
     "names",
     "ports",
     "process_image",
