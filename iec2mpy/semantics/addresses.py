@@ -49,7 +49,9 @@ def direct_variable(scope: Scope, expr: tree.DirectVariable) -> Variable | None:
     return found
 
 
-def unnamed_variable(world: GlobalScope, location: tree.DirectVariable, t: Type, initial: Value, span: Span) -> Variable:
+def unnamed_variable(
+    world: GlobalScope, location: tree.DirectVariable, t: Type, initial: Value, span: Span
+) -> Variable:
     """The variable that has no name but its address."""
     variable = Variable(location.text, t, tree.Section.GLOBAL, span, initial, address=location.text)
     world.direct[location.text] = variable

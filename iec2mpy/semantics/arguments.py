@@ -52,7 +52,10 @@ def report_mixed(scope: Scope, call: tree.CallExpr) -> None:
     """Say that a call names some of its arguments only."""
     unnamed = next(argument for argument in call.arguments if argument.name is None)
     scope.diagnostics.add(
-        "E0412", "Some arguments of this call have names, and this one has none.", unnamed.span, "Name all of them, or none."
+        "E0412",
+        "Some arguments of this call have names, and this one has none.",
+        unnamed.span,
+        "Name all of them, or none.",
     )
 
 
@@ -183,7 +186,10 @@ def _output(scope: Scope, match: ArgumentMatch, instance: Expr | None) -> Output
     parameter, span = match.parameter, match.value.span
     if not isinstance(match.value, _NAMING):
         scope.diagnostics.add(
-            "E0413", f"The output `{parameter.name}` needs a variable to go to.", span, "Take it into a variable, and calculate after the call."
+            "E0413",
+            f"The output `{parameter.name}` needs a variable to go to.",
+            span,
+            "Take it into a variable, and calculate after the call.",
         )
         return None
     target = reference(scope, match.value, Use.WRITE)

@@ -53,7 +53,7 @@ def truncating_divide(dividend: int, divisor: int) -> int:
 
 
 def modulo(dividend: int, divisor: int) -> int:
-    """The remainder of `truncating_divide`: it has the sign of the dividend. 0 for a divisor of 0 (table 29, note e)."""
+    """The remainder of `truncating_divide`, with the sign of the dividend; 0 for a divisor of 0 (table 29, note e)."""
     return dividend - truncating_divide(dividend, divisor) * divisor if divisor else 0
 
 
@@ -184,7 +184,7 @@ def convert(value: Scalar, source: SingleType, to: SingleType, truncate: bool = 
     """A value of type `source` as one of type `to` (table 22).
 
     Numbers keep their value or fault `range`; from and to bit strings the low bits are kept, without sign extension
-    (6.6.2.5.5); REAL and DWORD exchange the bit pattern; TIME counts as its milliseconds; a string is cut to its length.
+    (6.6.2.5.5); REAL and DWORD exchange bit patterns; TIME counts as its milliseconds; a string is cut to its length.
     """
     if isinstance(to, StringType):
         if isinstance(source, ElementaryType):
@@ -273,7 +273,7 @@ _STRING_FUNCTIONS: Mapping[str, Callable[..., Scalar]] = {
 
 _REAL_FUNCTIONS: Mapping[str, Callable[..., float]] = {
     "SQRT": math.sqrt,
-    "LN": lambda x: math.log(x),
+    "LN": math.log,
     "LOG": math.log10,
     "EXP": math.exp,
     "SIN": math.sin,

@@ -63,7 +63,10 @@ def _is_instance(scope: Scope, callee: tree.Expr, found: Expr) -> bool:
     if isinstance(found.type, BlockType):
         return True
     scope.diagnostics.add(
-        "E0411", f"`{callee.span.text}` is {found.type}, and cannot be called.", callee.span, "Only functions and instances of blocks are called."
+        "E0411",
+        f"`{callee.span.text}` is {found.type}, and cannot be called.",
+        callee.span,
+        "Only functions and instances of blocks are called.",
     )
     return False
 

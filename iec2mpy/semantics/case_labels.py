@@ -67,7 +67,9 @@ def _label(scope: Scope, written: tree.Expr | tree.LabelRange, selector: Type) -
     if low is None or high is None:
         return None
     if low > high:
-        scope.diagnostics.add("E0506", f"The limits {low}..{high} hold no value.", written.span, "Write the smaller limit first.")
+        scope.diagnostics.add(
+            "E0506", f"The limits {low}..{high} hold no value.", written.span, "Write the smaller limit first."
+        )
         return None
     return low, high
 

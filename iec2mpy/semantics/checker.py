@@ -14,7 +14,7 @@ from iec2mpy.semantics.statements import check_body
 from iec2mpy.semantics.type_specs import named_type
 from iec2mpy.semantics.typed import Application, Pou
 from iec2mpy.semantics.types import BlockType
-from iec2mpy.source.diagnostics import Diagnostics
+from iec2mpy.source.diagnostics import Diagnostics, Severity
 from iec2mpy.syntax import tree
 from iec2mpy.syntax.tree import PouKind
 
@@ -27,6 +27,39 @@ def check(
     `units` are those of all files, of the standard blocks that the program uses, too (`stdlib.stdlib_files`).
     `interval_us` is the period of the implicit task, where there is no CONFIGURATION.
     """
+    unread = [d for d in diagnostics.items if d.severity is Severity.ERROR]
+    if any(d.code.startswith("E09") for d in unread):
+        return None  # a part of the language that is not there yet: all that could be said follows from that
+    found = Diagnostics()
+    application = _checked(units, found, interval_us)
+    for d in found.items:
+        if not (unread and d.code in _FOLLOWING):
+            diagnostics.add(d.code, d.message, d.span, d.hint, d.related)
+    return None if diagnostics.has_errors else application
+
+
+_FOLLOWING = frozenset(
+    [
+        "E0201",
+        "E0203",
+        "E0204",
+        "E0206",
+        "E0207",
+        "E0208",
+        "E0209",
+        "E0401",
+        "E0403",
+        "E0404",
+        "E0405",
+        "E0411",
+        "W0701",
+    ]
+)
+"""What is only said of a program that could be read completely: the declaration that is missing may be one that could
+not be read."""
+
+
+def _checked(units: Sequence[tree.CompilationUnit], diagnostics: Diagnostics, interval_us: int) -> Application | None:
     world = GlobalScope(diagnostics)
     sections = _collect(world, units)
     for key in world.type_declarations:
@@ -89,6 +122,11 @@ def _collect_pou(world: GlobalScope, declaration: tree.PouDecl) -> None:
     pou = Pou(declaration.kind, declaration.name.text, declaration.name.span)
     world.pou_declarations[key] = declaration
     world.pous[key] = pou
+    for section in declaration.sections:
+        if section.section is tree.Section.GLOBAL and declaration.kind is PouKind.PROGRAM:
+            hint = "Write it outside of POUs."
+            world.diagnostics.add("E0915", "VAR_GLOBAL in a PROGRAM is not supported yet.", section.span, hint)
+            collect_globals(world, section, shared=False)
     if declaration.kind is PouKind.FUNCTION_BLOCK:
         world.block_types[key] = BlockType(pou.name, pou)
 

@@ -117,7 +117,9 @@ def _in_subrange(scope: Scope, value: Expr, target: Type) -> Expr | None:
     if limits.low <= int(value.value) <= limits.high:
         return value
     scope.diagnostics.add(
-        "E0504", f"{value.value} is outside of {target}, which has the values {limits.low} to {limits.high}.", value.span
+        "E0504",
+        f"{value.value} is outside of {target}, which has the values {limits.low} to {limits.high}.",
+        value.span,
     )
     return None
 
@@ -134,7 +136,9 @@ def describe(t: Type) -> str:
 
 def _mismatch(scope: Scope, value: Expr, target: Type, code: str, needs: str | None) -> None:
     what = needs or f"{target} is needed"
-    scope.diagnostics.add(code, f"{what}, but this is {describe(value.type)}.", value.span, _mismatch_hint(value, target))
+    scope.diagnostics.add(
+        code, f"{what}, but this is {describe(value.type)}.", value.span, _mismatch_hint(value, target)
+    )
 
 
 def _mismatch_hint(value: Expr, target: Type) -> str | None:
@@ -142,7 +146,11 @@ def _mismatch_hint(value: Expr, target: Type) -> str | None:
     if to is TIME and is_number(source):
         return "Write a duration such as T#500ms, or multiply T#1ms by the number."
     if to is BOOL and is_number(source):
-        return "Compare it, for example with <> 0." if not isinstance(value, Constant) else "Only 0 and 1, or FALSE and TRUE, are BOOL."
+        return (
+            "Compare it, for example with <> 0."
+            if not isinstance(value, Constant)
+            else "Only 0 and 1, or FALSE and TRUE, are BOOL."
+        )
     if isinstance(to, EnumType) and isinstance(value_type(source), ElementaryType):
         return f"Write one of its values: {', '.join(list(to.values)[:4])}{', …' if len(to.values) > 4 else ''}."
     if source is UNTYPED_REAL and is_integer(to):

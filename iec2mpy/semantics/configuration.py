@@ -65,31 +65,37 @@ def _tasks(world: GlobalScope, declarations: Sequence[tree.TaskDecl]) -> dict[st
 
 def _task(world: GlobalScope, declaration: tree.TaskDecl) -> Task:
     given: dict[str, tree.Argument] = {}
+    single = False
     for argument in declaration.arguments:
         name = argument.name.text.upper() if argument.name else ""
         if name == "SINGLE":
             world.diagnostics.add("E0918", "A task that an event starts (SINGLE) is not supported yet.", argument.span)
-            given.setdefault("INTERVAL", argument)
+            single = True
         elif name not in ("INTERVAL", "PRIORITY"):
             world.diagnostics.add(
-                "E0401", f"A task has no `{argument.name.text if argument.name else argument.span.text}`.", argument.span, "It has INTERVAL and PRIORITY."
+                "E0401",
+                f"A task has no `{argument.name.text if argument.name else argument.span.text}`.",
+                argument.span,
+                "It has INTERVAL and PRIORITY.",
             )
         elif name in given:
             world.diagnostics.add("E0402", f"{name} is given twice.", argument.span)
         else:
             given[name] = argument
-    for name, example in (("INTERVAL", "T#10ms"), ("PRIORITY", "1")):
-        if name not in given:
-            world.diagnostics.add(
-                "E0801", f"The task `{declaration.name.text}` has no {name}.", declaration.span, f"Write {name} := {example}."
-            )
+    if "INTERVAL" not in given and not single:  # that PRIORITY is there is a matter of the grammar (table 63)
+        world.diagnostics.add(
+            "E0801",
+            f"The task `{declaration.name.text}` has no INTERVAL.",
+            declaration.span,
+            "Write INTERVAL := T#10ms.",
+        )
     interval = _interval(world, given.get("INTERVAL"))
     priority = _priority(world, given.get("PRIORITY"))
     return Task(declaration.name.text, interval, priority, declaration.name.span)
 
 
 def _value(world: GlobalScope, argument: tree.Argument | None, t: Type) -> tuple[Constant, tree.Expr] | None:
-    if argument is None or argument.value is None or (argument.name and argument.name.text.upper() == "SINGLE"):
+    if argument is None or argument.value is None:
         return None
     value = check(Scope(world), argument.value, t)
     if value is None:
@@ -117,15 +123,12 @@ def _interval(world: GlobalScope, argument: tree.Argument | None) -> int:
 
 def _priority(world: GlobalScope, argument: tree.Argument | None) -> int:
 
-
     found = _value(world, argument, UINT)
     if found is None:
         return 0
     value, expr = found
     if not (value.type is UNTYPED_INT or is_integer(value.type)) or not 0 <= int(value.value) <= _MAX_PRIORITY:
-        world.diagnostics.add(
-            "E0802", f"A PRIORITY is a number from 0 (most urgent) to {_MAX_PRIORITY}.", expr.span
-        )
+        world.diagnostics.add("E0802", f"A PRIORITY is a number from 0 (most urgent) to {_MAX_PRIORITY}.", expr.span)
         return 0
     return int(value.value)
 
@@ -150,7 +153,9 @@ def _programs(
                 "E0201",
                 f"There is no task `{declaration.task.text}`.",
                 declaration.task.span,
-                f"Did you mean `{near}`?" if near else f"Declare it: TASK {declaration.task.text}(INTERVAL := T#10ms, PRIORITY := 1);",
+                f"Did you mean `{near}`?"
+                if near
+                else f"Declare it: TASK {declaration.task.text}(INTERVAL := T#10ms, PRIORITY := 1);",
             )
         for connection in declaration.connections:
             world.diagnostics.add("E0918", "Connections of a program are not supported yet.", connection.span)

@@ -37,6 +37,9 @@ def _is_constant(scope: Scope, checked: Expr, what: str, span: Span) -> bool:
     if isinstance(checked, Constant):
         return True
     scope.diagnostics.add(
-        "E0505", f"{what} must be constant, and this changes while the program runs.", span, "Write a number, or a variable of VAR CONSTANT."
+        "E0505",
+        f"{what} must be constant, and this changes while the program runs.",
+        span,
+        "Write a number, or a variable of VAR CONSTANT.",
     )
     return False

@@ -108,5 +108,8 @@ def _no_conversion(
         )
     else:
         scope.diagnostics.add(
-            "E0312", f"There is no conversion from {source} to {target}.", call.span, "Convert to an integer type in between."
+            "E0312",
+            f"There is no conversion from {source} to {target}.",
+            call.span,
+            "Convert to an integer type in between.",
         )

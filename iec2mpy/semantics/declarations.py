@@ -83,7 +83,11 @@ def report_duplicate(world: GlobalScope, name: tree.Name, first: Span) -> None:
     """Say that a name is declared a second time."""
     hint = None if name.text == first.text else "Letter case does not make names differ."
     world.diagnostics.add(
-        "E0202", f"`{name.text}` is declared twice.", name.span, hint, [Related(first, f"The first `{first.text}` is here.")]
+        "E0202",
+        f"`{name.text}` is declared twice.",
+        name.span,
+        hint,
+        [Related(first, f"The first `{first.text}` is here.")],
     )
 
 
@@ -103,7 +107,9 @@ def declare_pou(world: GlobalScope, key: str) -> Scope:
         if t is not UNKNOWN and holds_instance(t):
             _no_instance(scope, declaration.result.span, "the result of a function")
             t = UNKNOWN
-        pou.result = Variable(pou.name, t, Section.VAR, pou.span, default_value(t) if t is not UNKNOWN else 0, owner=pou)
+        pou.result = Variable(
+            pou.name, t, Section.VAR, pou.span, default_value(t) if t is not UNKNOWN else 0, owner=pou
+        )
         scope.locals[key] = pou.result
     for section in declaration.sections:
         _declare_section(scope, pou, section)
@@ -113,10 +119,10 @@ def declare_pou(world: GlobalScope, key: str) -> Scope:
 
 def _declare_section(scope: Scope, pou: Pou, section: tree.VarSection) -> None:
     if section.section is Section.GLOBAL:
-        if pou.kind is PouKind.PROGRAM:
-            scope.diagnostics.add("E0915", "VAR_GLOBAL in a PROGRAM is not supported yet.", section.span, "Write it outside of POUs.")
-        else:
-            scope.diagnostics.add("E0708", f"A {pou.kind.value} has no VAR_GLOBAL.", section.span, "Write it outside of POUs.")
+        if pou.kind is not PouKind.PROGRAM:  # those of programs are reported where they are collected
+            scope.diagnostics.add(
+                "E0708", f"A {pou.kind.value} has no VAR_GLOBAL.", section.span, "Write it outside of POUs."
+            )
         return
     if section.retention is not None and pou.kind is PouKind.FUNCTION:
         scope.diagnostics.add(
@@ -175,9 +181,7 @@ def _declare(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tree
 def _variable(
     section: tree.VarSection, declaration: tree.VarDecl, name: tree.Name, t: Type, initial: Value
 ) -> Variable:
-    return Variable(
-        name.text, t, section.section, name.span, initial, section.constant, _RETENTION[section.retention]
-    )
+    return Variable(name.text, t, section.section, name.span, initial, section.constant, _RETENTION[section.retention])
 
 
 def _initial(scope: Scope, section: tree.VarSection, declaration: tree.VarDecl, t: Type) -> Value:
@@ -202,7 +206,10 @@ def _may_hold(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tre
         return True
     if section.section in (Section.INPUT, Section.OUTPUT):
         scope.diagnostics.add(
-            "E0915", f"An instance of a block in {section.section.value} is not supported yet.", declaration.span, "VAR_IN_OUT can take one."
+            "E0915",
+            f"An instance of a block in {section.section.value} is not supported yet.",
+            declaration.span,
+            "VAR_IN_OUT can take one.",
         )
         return False
     if section.constant or section.section is Section.TEMP or pou.kind is PouKind.FUNCTION:
@@ -213,7 +220,10 @@ def _may_hold(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tre
         key = block.pou.name.casefold()
         if f"pou {key}" in scope.world.active:
             scope.diagnostics.add(
-                "E0705", f"`{block.name}` contains an instance of itself.", declaration.span, "Pass the other instance as VAR_IN_OUT."
+                "E0705",
+                f"`{block.name}` contains an instance of itself.",
+                declaration.span,
+                "Pass the other instance as VAR_IN_OUT.",
             )
             return False
         declare_pou(scope.world, key)
@@ -313,5 +323,7 @@ def _unnamed(scope: Scope, declaration: tree.VarDecl) -> None:
     t = resolve_type(scope, declaration.type)
     if t is UNKNOWN or not is_supported(scope, location):
         return
-    variable = unnamed_variable(scope.world, location, t, initial_value(scope, t, declaration.initial), declaration.span)
+    variable = unnamed_variable(
+        scope.world, location, t, initial_value(scope, t, declaration.initial), declaration.span
+    )
     locate(scope, variable)

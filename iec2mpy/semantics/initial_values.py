@@ -99,7 +99,10 @@ def _array(scope: Scope, t: ArrayType, initial: tree.ArrayInitial) -> Value:
         # neither is an error, and the user is warned of both (6.4.4.5.2)
         kept = "the last ones are ignored" if len(values) > wanted else "the others keep the default"
         scope.diagnostics.add(
-            "W0501", f"{len(values)} initial values for {wanted} elements: {kept}.", initial.span, "[3, 5(0)] stands for [3, 0, 0, 0, 0, 0]."
+            "W0501",
+            f"{len(values)} initial values for {wanted} elements: {kept}.",
+            initial.span,
+            "[3, 5(0)] stands for [3, 0, 0, 0, 0, 0].",
         )
         values = [*values[:wanted], *[default_value(t.element)] * (wanted - len(values))]
     return nested(values, t.lengths)

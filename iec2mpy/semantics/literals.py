@@ -56,7 +56,9 @@ def _real(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
     except OverflowError:
         single = math.inf
     if not math.isfinite(single):
-        scope.diagnostics.add("E0501", "This number is too large for REAL.", expr.span, "REAL holds numbers up to 3.4E38.")
+        scope.diagnostics.add(
+            "E0501", "This number is too large for REAL.", expr.span, "REAL holds numbers up to 3.4E38."
+        )
         return None
     if not prefix:
         return Constant(expr.value, UNTYPED_REAL, expr.span)
@@ -92,7 +94,10 @@ def _duration(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
     if TIME.low <= value <= TIME.high:
         return Constant(value, TIME, expr.span)
     scope.diagnostics.add(
-        "E0501", "This duration is too long for TIME.", expr.span, "TIME holds up to T#24d20h31m23s647ms, about 24.8 days."
+        "E0501",
+        "This duration is too long for TIME.",
+        expr.span,
+        "TIME holds up to T#24d20h31m23s647ms, about 24.8 days.",
     )
     return None
 

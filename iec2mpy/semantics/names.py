@@ -95,7 +95,11 @@ def unknown_name(scope: Scope, expr: tree.NameExpr) -> None:
     add = scope.diagnostics.add
     if key in world.pou_declarations:
         kind = world.pou_declarations[key].kind.value.replace("_", " ").lower()
-        hint = "Call it, with its arguments in brackets." if kind == "function" else "Declare an instance of it, and use that."
+        hint = (
+            "Call it, with its arguments in brackets."
+            if kind == "function"
+            else "Declare an instance of it, and use that."
+        )
         add("E0208", f"`{expr.name}` is a {kind}, and has no value of its own.", expr.span, hint)
     elif key in world.type_declarations:
         add("E0208", f"`{expr.name}` is a type, and has no value.", expr.span, "Declare a variable of that type.")
@@ -111,4 +115,9 @@ def unknown_name(scope: Scope, expr: tree.NameExpr) -> None:
             )
     else:
         near = suggest(expr.name, scope.visible_names())
-        add("E0201", f"`{expr.name}` is not declared.", expr.span, f"Did you mean `{near}`?" if near else "Declare it in VAR … END_VAR.")
+        add(
+            "E0201",
+            f"`{expr.name}` is not declared.",
+            expr.span,
+            f"Did you mean `{near}`?" if near else "Declare it in VAR … END_VAR.",
+        )

@@ -83,7 +83,9 @@ def _node(scope: Scope, operator: str, left: Expr, right: Expr, t: Type, span: S
         scope.diagnostics.add("E0503", "This divides by zero.", right.span)
         return None
     if isinstance(left, Constant) and isinstance(right, Constant) and left_type and right_type:
-        return folded(scope, lambda: arithmetic.binary(operator, left.value, right.value, left_type, right_type), t, span)
+        return folded(
+            scope, lambda: arithmetic.binary(operator, left.value, right.value, left_type, right_type), t, span
+        )
     return Binary(operator, left, right, t, span)
 
 
@@ -158,9 +160,7 @@ def _is_kind(t: Type, kinds: frozenset[Kind]) -> bool:
     return isinstance(t, ElementaryType) and t.kind in kinds
 
 
-def _typed_pair(
-    scope: Scope, operator: str, left: Expr, right: Expr, operator_span: Span
-) -> tuple[Expr, Expr] | None:
+def _typed_pair(scope: Scope, operator: str, left: Expr, right: Expr, operator_span: Span) -> tuple[Expr, Expr] | None:
     a, b = base_type(left.type), base_type(right.type)
     if isinstance(a, ElementaryType) and isinstance(b, ElementaryType):
         common = common_type(a, b)
@@ -175,7 +175,11 @@ def _typed_pair(
 def _wrong_operand(scope: Scope, operator: str, operand: Expr) -> None:
     if operator in COMPARISONS:
         message = f"{describe(operand.type)} has no `{operator}`."
-        hint = "Values of an enumeration are compared with = and <> only." if isinstance(base_type(operand.type), EnumType) else None
+        hint = (
+            "Values of an enumeration are compared with = and <> only."
+            if isinstance(base_type(operand.type), EnumType)
+            else None
+        )
     else:
         message = f"`{operator}` needs {_NEEDS[operator]}, but this is {describe(operand.type)}."
         hint = _operand_hint(operator, operand)
@@ -219,7 +223,9 @@ def _power(scope: Scope, left: Expr, right: Expr, operator_span: Span, span: Spa
         _wrong_operand(scope, "**", base)
         return None
     if not _is_kind(exponent.type, NUMBER_KINDS):
-        scope.diagnostics.add("E0302", f"An exponent must be a number, but this is {describe(exponent.type)}.", exponent.span)
+        scope.diagnostics.add(
+            "E0302", f"An exponent must be a number, but this is {describe(exponent.type)}.", exponent.span
+        )
         return None
     base = convert(base, REAL)
     if base_type(exponent.type) is not REAL:
@@ -301,7 +307,10 @@ def _complement(scope: Scope, operand: Expr, expected: Type | None, span: Span) 
         # 6.6.1.6, example 5: what NOT(0) is depends on its width
         if expected is None or not _is_kind(expected, BIT_KINDS):
             scope.diagnostics.add(
-                "E0313", "NOT of a number without a type has no clear meaning.", span, "Write the type: NOT WORD#0, or NOT FALSE."
+                "E0313",
+                "NOT of a number without a type has no clear meaning.",
+                span,
+                "Write the type: NOT WORD#0, or NOT FALSE.",
             )
             return None
         typed = coerce(scope, operand, expected)

@@ -30,7 +30,10 @@ def _visit(world: GlobalScope, calls: dict[Pou, dict[Pou, Span]], start: Pou, do
             through = [f"`{pou.name}`" for pou in path[path.index(callee) + 1 :]]
             by = f" through {', '.join(through)}" if through else ""
             world.diagnostics.add(
-                "E0410", f"`{callee.name}` calls itself{by}.", span, "Use a loop: a controller has no stack for such calls."
+                "E0410",
+                f"`{callee.name}` calls itself{by}.",
+                span,
+                "Use a loop: a controller has no stack for such calls.",
             )
         elif callee not in done and callee in calls:
             path.append(callee)

@@ -52,12 +52,19 @@ def _no_variable(scope: Scope, expr: tree.Expr, use: Use) -> None:
         return
     if use is Use.IN_OUT:
         scope.diagnostics.add(
-            "E0406", "An in-out needs a variable, and this is a value.", expr.span, "Store the value in a variable, and give that."
+            "E0406",
+            "An in-out needs a variable, and this is a value.",
+            expr.span,
+            "Store the value in a variable, and give that.",
         )
     elif use is Use.CALL:
-        scope.diagnostics.add("E0411", "This cannot be called.", expr.span, "Only functions and instances of blocks are called.")
+        scope.diagnostics.add(
+            "E0411", "This cannot be called.", expr.span, "Only functions and instances of blocks are called."
+        )
     else:
-        scope.diagnostics.add("E0603", "This is no variable.", expr.span, "Only variables and their parts can be assigned.")
+        scope.diagnostics.add(
+            "E0603", "This is no variable.", expr.span, "Only variables and their parts can be assigned."
+        )
 
 
 # -------------------------------------------------------------------------------------------- whole variables
@@ -89,12 +96,28 @@ def _may_use(scope: Scope, variable: Variable, use: Use, span: Span) -> bool:
         return False
     if variable.section is Section.INPUT:
         code = "E0606" if use is Use.IN_OUT else "E0604"
-        hint = "Copy it to a variable of VAR or VAR_TEMP, and change that." if use is Use.WRITE else "Give it a copy in a variable of VAR."
-        add(code, f"`{variable.name}` is an input of `{_owner(scope)}`: it cannot be {use.value} here.", span, hint, [_declared(variable)])
+        hint = (
+            "Copy it to a variable of VAR or VAR_TEMP, and change that."
+            if use is Use.WRITE
+            else "Give it a copy in a variable of VAR."
+        )
+        add(
+            code,
+            f"`{variable.name}` is an input of `{_owner(scope)}`: it cannot be {use.value} here.",
+            span,
+            hint,
+            [_declared(variable)],
+        )
         return False
     located = (variable.target or variable).address
     if located and located.startswith("%I"):
-        add("E0604", f"`{variable.name}` is the input {located}: it cannot be {use.value}.", span, None, [_declared(variable)])
+        add(
+            "E0604",
+            f"`{variable.name}` is the input {located}: it cannot be {use.value}.",
+            span,
+            None,
+            [_declared(variable)],
+        )
         return False
     if variable in scope.controls:
         add(
@@ -155,7 +178,10 @@ def _member(scope: Scope, expr: tree.MemberExpr, use: Use) -> Expr | None:
         return _of_instance(scope, expr, base, t, use)
     if not isinstance(t, StructType):
         scope.diagnostics.add(
-            "E0307", f"This is {describe(t)}, which has no member `{expr.name.text}`.", expr.name.span, "Structures and instances have members."
+            "E0307",
+            f"This is {describe(t)}, which has no member `{expr.name.text}`.",
+            expr.name.span,
+            "Structures and instances have members.",
         )
         return None
     field = t.fields.get(expr.name.key)
@@ -189,7 +215,9 @@ def _field(base: Expr, field: Variable, span: Span) -> Expr | None:
 
 def _unknown_member(scope: Scope, t: Type, name: tree.Name, known: object) -> None:
     near = suggest(name.text, list(known))  # type: ignore[call-overload]
-    scope.diagnostics.add("E0204", f"{t} has no member `{name.text}`.", name.span, f"Did you mean `{near}`?" if near else None)
+    scope.diagnostics.add(
+        "E0204", f"{t} has no member `{name.text}`.", name.span, f"Did you mean `{near}`?" if near else None
+    )
 
 
 _ALLOWED: Mapping[Section, frozenset[Use]] = {
@@ -237,14 +265,21 @@ def _element(scope: Scope, expr: tree.IndexExpr, use: Use) -> Expr | None:
     t = base.type
     if isinstance(t, StringType):
         scope.diagnostics.add(
-            "E0915", "Access to a character of a STRING is not supported yet.", expr.span, "MID(s, 1, i) gives it as a STRING."
+            "E0915",
+            "Access to a character of a STRING is not supported yet.",
+            expr.span,
+            "MID(s, 1, i) gives it as a STRING.",
         )
         return None
     if not isinstance(t, ArrayType):
-        scope.diagnostics.add("E0307", f"This is {describe(t)}, which has no elements.", expr.span, "Only arrays have subscripts.")
+        scope.diagnostics.add(
+            "E0307", f"This is {describe(t)}, which has no elements.", expr.span, "Only arrays have subscripts."
+        )
         return None
     if len(indices) != len(t.bounds):
-        scope.diagnostics.add("E0306", f"This array has {_dimensions(len(t.bounds))}, and {len(indices)} given.", expr.span)
+        scope.diagnostics.add(
+            "E0306", f"This array has {_dimensions(len(t.bounds))}, and {len(indices)} given.", expr.span
+        )
         return None
     checked = [index for index in indices if index is not None]
     if len(checked) != len(indices) or not _inside(scope, checked, t):
@@ -261,7 +296,9 @@ def _index(scope: Scope, expr: tree.Expr) -> Expr | None:
     if index is None:
         return None
     if not is_integer(index.type) or isinstance(index.type, EnumType):
-        scope.diagnostics.add("E0305", f"A subscript must be an integer, but this is {describe(index.type)}.", index.span)
+        scope.diagnostics.add(
+            "E0305", f"A subscript must be an integer, but this is {describe(index.type)}.", index.span
+        )
         return None
     return typed_literal(scope, index)
 

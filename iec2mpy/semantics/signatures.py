@@ -98,16 +98,28 @@ def generic_members(generic: str) -> list[str]:
 
 @cache
 def standard_function(name: str) -> Signature | None:
-    """The standard function of that name in any letter case, typed names (`ADD_INT`) included; None if there is none."""
+    """The standard function of that name in any letter case, typed names (`ADD_INT`) included, or None."""
     name = name.upper()
     found = _functions().get(name)
     if found is not None:
         return found
     stem, _, suffix = name.rpartition("_")
-    generic = _functions().get(stem)
+    generic = _functions().get(stem) or _with_selector(stem)
     if generic is None or generic.generic is None or suffix not in generic_members(generic.generic):
         return None
     return replace(generic, fixed=type_named(suffix))
+
+
+def _with_selector(name: str) -> Signature | None:
+    """MUX with the type of its selector K: `MUX_INT` of MUX_INT_REAL (table 32, 6)."""
+    stem, _, suffix = name.rpartition("_")
+    generic = _functions().get(stem)
+    if generic is None or not generic.inputs or generic.inputs[0].type == generic.generic:
+        return None
+    selector = generic.inputs[0]
+    if not selector.type.startswith("ANY") or suffix not in generic_members(selector.type):
+        return None
+    return replace(generic, inputs=(Parameter(selector.name, suffix), *generic.inputs[1:]))
 
 
 def function_names() -> list[str]:

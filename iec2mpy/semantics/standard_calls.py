@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 
 from iec2mpy.semantics import arithmetic, expressions, operators
 from iec2mpy.semantics.arguments import report_mixed
@@ -13,7 +14,17 @@ from iec2mpy.semantics.defaults import default_value
 from iec2mpy.semantics.scope import Scope
 from iec2mpy.semantics.signatures import Parameter, Signature, generic_members
 from iec2mpy.semantics.typed import BuiltinCall, Constant, Expr
-from iec2mpy.semantics.types import BOOL, ElementaryType, EnumType, StringType, Type, base_type, value_type
+from iec2mpy.semantics.types import (
+    BOOL,
+    ArrayType,
+    ElementaryType,
+    EnumType,
+    StringType,
+    StructType,
+    Type,
+    base_type,
+    value_type,
+)
 from iec2mpy.source.spans import Span
 from iec2mpy.source.suggest import suggest
 from iec2mpy.syntax import tree
@@ -138,7 +149,7 @@ def _operator(
     if operator == "NOT":
         return operators.unary(scope, operator, values[0], expected, span)
     result = operators.binary(scope, operator, values[0], values[1], call.callee.span, span)
-    for left, right in zip(values[1:], values[2:], strict=False):
+    for left, right in pairwise(values[1:]):
         if result is None:
             return None
         if operator in COMPARISONS:  # GT(a, b, c) is (a > b) AND (b > c): table 33
@@ -171,7 +182,8 @@ def _builtin(
                 values[i] = next(converted)
         found[generic] = unified[1]
     arguments = tuple(
-        value if value is not None else _default(signature, number, found, call.span) for number, value in enumerate(values)
+        value if value is not None else _default(signature, number, found, call.span)
+        for number, value in enumerate(values)
     )
     t = _result(signature, found, arguments)
     single = value_type(t)
@@ -287,6 +299,10 @@ _MEANS = {
 
 
 def _not_generic(scope: Scope, signature: Signature, generic: str, value: Expr) -> None:
+    if generic == "ANY" and isinstance(base_type(value.type), (StructType, ArrayType)):
+        what = f"{signature.name} of whole structures and arrays"
+        scope.diagnostics.add("E0915", f"{what} is not supported yet.", value.span, "Use IF.")
+        return
     scope.diagnostics.add(
         "E0312", f"{signature.name} needs {_MEANS[generic]}, but this is {describe(value.type)}.", value.span
     )

@@ -41,7 +41,9 @@ def check_body(scope: Scope, body: Sequence[tree.Stmt]) -> tuple[Stmt, ...]:
             checked.append(result)
         if isinstance(statement, _LEAVES) and number + 1 < len(body):
             scope.diagnostics.add(
-                "W0602", f"This is never reached: {statement.span.text.rstrip(';').upper()} comes before it.", body[number + 1].span
+                "W0602",
+                f"This is never reached: {statement.span.text.rstrip(';').upper()} comes before it.",
+                body[number + 1].span,
             )
     return tuple(checked)
 
@@ -114,7 +116,7 @@ def _control_variable(scope: Scope, expr: tree.Expr) -> Expr | None:
     if not is_integer(control.type) or isinstance(control.type, EnumType):
         scope.diagnostics.add(
             "E0309",
-            f"The control variable of FOR must be an integer, but `{control.variable.name}` is {describe(control.type)}.",
+            f"The control variable of FOR must be an integer, but this is {describe(control.type)}.",
             expr.span,
             "Count with an INT, and calculate from it in the body.",
         )

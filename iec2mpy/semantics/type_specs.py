@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from iec2mpy.semantics import constants, initial_values
-from iec2mpy.semantics.conversions import is_integer, type_named
+from iec2mpy.semantics.conversions import INTEGER_KINDS, type_named
 from iec2mpy.semantics.defaults import default_value
 from iec2mpy.semantics.scope import UNKNOWN, GlobalScope, Scope
+from iec2mpy.semantics.signatures import is_planned_block
 from iec2mpy.semantics.typed import Variable
 from iec2mpy.semantics.types import (
     DEFAULT_STRING_LENGTH,
@@ -19,6 +20,7 @@ from iec2mpy.semantics.types import (
     BlockType,
     ElementaryType,
     EnumType,
+    Kind,
     StringType,
     StructType,
     SubrangeType,
@@ -30,6 +32,8 @@ from iec2mpy.source.spans import Span
 from iec2mpy.source.suggest import suggest
 from iec2mpy.syntax import tree
 
+_NAMED_KINDS = INTEGER_KINDS | {Kind.BITS}
+"""What named values may be made of (11.2a)."""
 _MAX_ELEMENTS = 32_000
 """More elements than any board has room for: 4 bytes each."""
 
@@ -49,7 +53,10 @@ def named_type(world: GlobalScope, key: str) -> Type | None:
     if key in world.active:
         name = declaration.name
         world.diagnostics.add(
-            "E0705", f"The type `{name.text}` contains itself.", name.span, "A type can hold only types other than itself."
+            "E0705",
+            f"The type `{name.text}` contains itself.",
+            name.span,
+            "A type can hold only types other than itself.",
         )
         return UNKNOWN
     world.active.add(key)
@@ -92,6 +99,8 @@ def _named(scope: Scope, spec: tree.NamedTypeSpec, name: str | None) -> Type:
         return t
     if text.upper() in NOT_YET:
         scope.diagnostics.add("E0914", f"The type {text.upper()} is not supported yet.", spec.span)
+    elif is_planned_block(text):
+        scope.diagnostics.add("E0916", f"The standard block {text.upper()} is not supported yet.", spec.span)
     elif spec.name.key in world.pou_declarations:
         kind = world.pou_declarations[spec.name.key].kind
         if kind is tree.PouKind.PROGRAM:
@@ -130,7 +139,10 @@ def _string(scope: Scope, spec: tree.StringSpec, name: str | None) -> Type:
         return UNKNOWN
     if not 1 <= length <= DEFAULT_STRING_LENGTH:
         scope.diagnostics.add(
-            "E0509", f"A STRING cannot have {length} characters.", spec.length.span, f"Write 1 to {DEFAULT_STRING_LENGTH}."
+            "E0509",
+            f"A STRING cannot have {length} characters.",
+            spec.length.span,
+            f"Write 1 to {DEFAULT_STRING_LENGTH}.",
         )
         return UNKNOWN
     return StringType(length)
@@ -141,28 +153,35 @@ def _limits(scope: Scope, low: tree.Expr, high: tree.Expr, what: str, span: Span
     if first is None or last is None:
         return None
     if first > last:
-        scope.diagnostics.add("E0506", f"The limits {first}..{last} hold no value.", span, "Write the smaller limit first.")
+        scope.diagnostics.add(
+            "E0506", f"The limits {first}..{last} hold no value.", span, "Write the smaller limit first."
+        )
         return None
     return first, last
 
 
-def _base(scope: Scope, name: tree.Name, what: str) -> ElementaryType | None:
+def _base(scope: Scope, name: tree.Name, what: str, kinds: frozenset[Kind] = INTEGER_KINDS) -> ElementaryType | None:
     t = type_named(name.text)
-    if isinstance(t, ElementaryType) and is_integer(t):
+    if isinstance(t, ElementaryType) and t.kind in kinds:
         return t
     if name.text.upper() in NOT_YET:
         scope.diagnostics.add("E0914", f"The type {name.text.upper()} is not supported yet.", name.span)
     else:
         scope.diagnostics.add(
-            "E0310", f"{what} is made of an integer type, and `{name.text}` is none.", name.span, "Use INT, DINT, UINT or their like."
+            "E0310",
+            f"{what} is made of an integer type, and `{name.text}` is none.",
+            name.span,
+            "Use INT, DINT, UINT or their like.",
         )
     return None
 
 
 def _subrange(scope: Scope, spec: tree.SubrangeSpec, name: str | None) -> Type:
     base = _base(scope, spec.base, "A subrange")
+    if base is None:
+        return UNKNOWN
     limits = _limits(scope, spec.low, spec.high, "A limit of a subrange", spec.low.span.to(spec.high.span))
-    if base is None or limits is None:
+    if limits is None:
         return UNKNOWN
     for value, expr in zip(limits, (spec.low, spec.high), strict=True):
         if not base.low <= value <= base.high:
@@ -173,7 +192,7 @@ def _subrange(scope: Scope, spec: tree.SubrangeSpec, name: str | None) -> Type:
 
 
 def _enumeration(scope: Scope, spec: tree.EnumSpec, name: str | None) -> Type:
-    base = INT if spec.base is None else _base(scope, spec.base, "A type with named values")
+    base = INT if spec.base is None else _base(scope, spec.base, "A type with named values", _NAMED_KINDS)
     if base is None:
         return UNKNOWN
     # a value may be written with the names before it (6.4.4.3.2)
@@ -187,10 +206,10 @@ def _enumeration(scope: Scope, spec: tree.EnumSpec, name: str | None) -> Type:
             continue
         seen[item.name.key] = item.name
         if item.value is not None:
-            given = constants.integer(inner, item.value, "The number of an enumerated value")
+            given = constants.scalar(inner, item.value, base, "The number of an enumerated value")
             if given is None:
                 return UNKNOWN
-            number = given
+            number = int(given)
         if not base.low <= number <= base.high:
             scope.diagnostics.add("E0501", f"{number} is no {base}: it has {base.low} to {base.high}.", item.span)
             return UNKNOWN

@@ -247,16 +247,7 @@ class FunctionCall:
 
 
 Expr = (
-    Constant
-    | VariableRef
-    | DirectRef
-    | FieldRef
-    | ElementRef
-    | Convert
-    | Unary
-    | Binary
-    | BuiltinCall
-    | FunctionCall
+    Constant | VariableRef | DirectRef | FieldRef | ElementRef | Convert | Unary | Binary | BuiltinCall | FunctionCall
 )
 
 # ------------------------------------------------------------------------------------------- statements

@@ -76,7 +76,26 @@ ELEMENTARY: Mapping[str, ElementaryType] = {
 """By name, in capitals. STRING has a length, and is `StringType`."""
 
 NOT_YET = frozenset(
-    ["LINT", "ULINT", "LWORD", "LREAL", "LTIME", "DATE", "LDATE", "TOD", "TIME_OF_DAY", "LTOD", "LTIME_OF_DAY", "DT", "DATE_AND_TIME", "LDT", "LDATE_AND_TIME", "CHAR", "WCHAR", "WSTRING"]
+    [
+        "LINT",
+        "ULINT",
+        "LWORD",
+        "LREAL",
+        "LTIME",
+        "DATE",
+        "LDATE",
+        "TOD",
+        "TIME_OF_DAY",
+        "LTOD",
+        "LTIME_OF_DAY",
+        "DT",
+        "DATE_AND_TIME",
+        "LDT",
+        "LDATE_AND_TIME",
+        "CHAR",
+        "WCHAR",
+        "WSTRING",
+    ]
 )
 """Elementary types of the standard that this compiler does not have yet."""
 

@@ -7,7 +7,7 @@ from difflib import get_close_matches
 
 
 def suggest(name: str, candidates: Iterable[str]) -> str | None:
-    """The candidate that is most like `name`, in its own spelling, or None where none is near. Letter case is ignored."""
+    """The candidate most like `name`, in its own spelling, or None where none is near. Letter case is ignored."""
     by_key: dict[str, str] = {}
     for candidate in candidates:
         by_key.setdefault(candidate.casefold(), candidate)
