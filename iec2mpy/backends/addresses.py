@@ -70,7 +70,7 @@ class Addresses:
                 constant, terms = _scaled(step.index, stride)
                 position += constant
                 if constant:
-                    path = ()
+                    path = (*path, str(constant))
                 dynamic = [*dynamic, *(self._term(term, factor) for term, factor in terms)]
         return position, path, dynamic
 
@@ -117,11 +117,9 @@ class Addresses:
 
     def _comment(self, place: n.Place) -> str:
         """What a constant stands for: the declaration of the last variable of a plain path."""
-        if not place.steps:
-            variable = place.root.variable if isinstance(place.root, n.Global) else None
-        else:
-            last = place.steps[-1]
-            variable = last.variable if isinstance(last, n.Field) else None
+        fields = [step.variable for step in place.steps if isinstance(step, n.Field)]
+        root = [place.root.variable] if isinstance(place.root, n.Global) else []
+        variable = next(reversed([*root, *fields]), None)
         if variable is None:
             return ""
         located = f" ({variable.address})" if variable.address else ""

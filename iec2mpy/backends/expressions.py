@@ -177,8 +177,8 @@ class ExpressionWriter:
         a, b = self.value(left), self.value(right)
         if low >= 0 and divisor_low >= 0:
             return infix(a, "//" if name == "div" else "%", b)
-        below = _choice(infix(b, "-", number(1)), infix(a, "<", number(0)), number(0))
-        above = _choice(infix(b, "+", number(1)), infix(a, ">", number(0)), number(0))
+        below = _choice(self._next_to(right, -1), infix(a, "<", number(0)), number(0))
+        above = _choice(self._next_to(right, 1), infix(a, ">", number(0)), number(0))
         if divisor_low >= 0:
             moved = below
         elif divisor_high <= 0:
@@ -187,6 +187,11 @@ class ExpressionWriter:
             moved = _choice(below, infix(b, ">", number(0)), above)
         quotient = infix(infix(a, "+", moved), "//", b)
         return quotient if name == "div" else infix(a, "-", infix(quotient, "*", b))
+
+    def _next_to(self, value: n.Expr, by: int) -> Text:
+        if isinstance(value, n.Const):
+            return number(value.number + by)
+        return infix(self.value(value), "+", number(by))
 
     def _complement(self, operand: n.Expr, value_type: n.ValueType) -> Text:
         assert isinstance(value_type, ty.ElementaryType)

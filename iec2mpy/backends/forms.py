@@ -65,6 +65,7 @@ _OPERATORS = {
     "<=": Binding.COMPARE,
     ">=": Binding.COMPARE,
 }
+_BITWISE = frozenset({"&", "|", "^", "<<", ">>"})
 _CHAINS = frozenset({"+", "*", "&", "|", "^", "and", "or"})
 
 
@@ -76,6 +77,10 @@ def infix(left: Text, operator: str, right: Text) -> Text:
     if binding is Binding.COMPARE:
         # Python would chain a comparison of a comparison
         return Text(f"{left.at(Binding.BIT_OR)} {operator} {right.at(Binding.BIT_OR)}", binding)
+    if operator in _BITWISE:
+        # Python's precedence of these is known to few: their operands are bare, or a chain of the same
+        first = left.code if left.binding is binding and operator in _CHAINS else left.at(Binding.UNARY)
+        return Text(f"{first} {operator} {right.at(Binding.UNARY)}", binding)
     tighter = binding if operator in _CHAINS else Binding(binding + 1)
     return Text(f"{left.at(binding)} {operator} {right.at(tighter)}", binding)
 
@@ -91,7 +96,7 @@ def number(value: int) -> Text:
 
 def held_as_pattern(target: Target, value_type: ty.ElementaryType) -> bool:
     """Whether values of the type are held as a signed pattern of the same bits."""
-    return target.word == 32 and value_type.bits == 32 and value_type.low == 0
+    return target.word == 32 and value_type.high >= 1 << 31
 
 
 def pattern(value: int) -> int:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from iec2mpy.ir import nodes as n
-from iec2mpy.ir.walk import expressions, places, statements
 from iec2mpy.semantics import types as ty
 from iec2mpy.semantics.typed import Pou, Value, Variable
 from iec2mpy.syntax.tree import PouKind, Section
@@ -77,10 +77,7 @@ class Layout:
         """The slots that a value of this type takes."""
         declared = ty.base_type(declared)
         if isinstance(declared, ty.ArrayType):
-            count = 1
-            for length in declared.lengths:
-                count *= length
-            return self.size_of(declared.element).times(count)
+            return self.size_of(declared.element).times(math.prod(declared.lengths))
         if isinstance(declared, (ty.StructType, ty.BlockType)):
             return self.record(declared).size
         stored = ty.value_type(declared)
@@ -157,25 +154,50 @@ class Layout:
         several. Such a body needs no base at run time."""
         return self._single_bases.get(pou)
 
-    def storages(self) -> Iterator[tuple[Variable | None, ty.Type, Value, Size, bool]]:
-        """Everything that has a place and an initial value: (variable, type, value, position, retained)."""
+    def storages(self) -> Iterator[tuple[ty.Type, Value, Size]]:
+        """Everything that has a place and an initial value: (type, value, position)."""
         for variable, at in (*self.globals.items(), *self.located.values()):
-            yield variable, variable.type, variable.initial, at, variable.retain
+            yield variable.type, variable.initial, at
+        records = [
+            *((self.instance_record(run.pou), base) for run, base in zip(self.module.programs, self.instances, strict=True)),
+            *((self.frame_record(pou), base) for pou, base in self.frames.items()),
+        ]
+        for record, base in records:
+            for variable, offset in record.offsets.items():
+                if variable.section is not Section.IN_OUT:
+                    yield variable.type, variable.initial, base + offset
+
+    def retained(self) -> Iterator[tuple[Size, Size]]:
+        """The positions and sizes of what keeps its value over a warm restart."""
+        for variable, at in (*self.globals.items(), *self.located.values()):
+            yield from self._retained_in(variable.type, at, bool(variable.retain))
         for run, base in zip(self.module.programs, self.instances, strict=True):
-            for variable, offset in self.instance_record(run.pou).offsets.items():
-                if variable.section is not Section.IN_OUT:
-                    yield variable, variable.type, variable.initial, base + offset, run.retain or variable.retain
-        for pou, base in self.frames.items():
-            for variable, offset in self.frame_record(pou).offsets.items():
-                if variable.section is not Section.IN_OUT:
-                    yield variable, variable.type, variable.initial, base + offset, False
+            yield from self._retained_in_record(self.instance_record(run.pou), base, run.retain)
+
+    def _retained_in_record(self, record: Record, base: Size, inherited: bool) -> Iterator[tuple[Size, Size]]:
+        """What says nothing of its own does as its instance does (6.5.6.2)."""
+        for variable, offset in record.offsets.items():
+            if variable.section is not Section.IN_OUT:
+                retain = inherited if variable.retain is None else variable.retain
+                yield from self._retained_in(variable.type, base + offset, retain)
+
+    def _retained_in(self, declared: ty.Type, at: Size, retain: bool) -> Iterator[tuple[Size, Size]]:
+        shape = ty.unaliased(declared)
+        if isinstance(shape, ty.BlockType):
+            yield from self._retained_in_record(self.record(shape), at, retain)
+        elif isinstance(shape, ty.ArrayType) and isinstance(ty.unaliased(shape.element), ty.BlockType):
+            element = self.size_of(shape.element)
+            for number in range(math.prod(shape.lengths)):
+                yield from self._retained_in(shape.element, at + element.times(number), retain)
+        elif retain:
+            yield at, self.size_of(shape)
 
     def find_single_bases(self) -> None:
         """Counts the instances of each block and program, once all have their positions."""
         bases: dict[Pou, list[Size]] = {}
         for run, base in zip(self.module.programs, self.instances, strict=True):
             bases.setdefault(run.pou, []).append(base)
-        for _, declared, _, at, _ in self.storages():
+        for declared, _, at in self.storages():
             for pou, base in self._instances_in(declared, at):
                 bases.setdefault(pou, []).append(base)
         self._single_bases = {pou: found[0] if len(found) == 1 else None for pou, found in bases.items()}
@@ -184,10 +206,8 @@ class Layout:
         """The block instances in a variable; of an array of instances, two stand for all."""
         declared = ty.unaliased(declared)
         if isinstance(declared, ty.ArrayType):
-            size = self.size_of(declared)
             element = self.size_of(declared.element)
-            count = max(size.v // element.v if element.v else 0, size.o // element.o if element.o else 0)
-            for number in range(min(count, 2)):
+            for number in range(min(math.prod(declared.lengths), 2)):
                 yield from self._instances_in(declared.element, at + element.times(number))
         elif isinstance(declared, ty.StructType):
             for variable, offset in self.record(declared).offsets.items():
@@ -202,7 +222,8 @@ class Layout:
 def lay_out(module: n.Module) -> Layout:
     """Gives everything in the module its place: globals and located variables, programs, frames."""
     layout = Layout(module)
-    for variable in (*module.globals, *_located_variables(module)):
+    located = [v for pou in module.bodies for v in pou.variables.values() if v.address is not None]
+    for variable in (*module.globals, *located):
         layout.place_global(variable)
     for run in module.programs:
         layout.instances.append(layout.place(layout.instance_record(run.pou).size))
@@ -210,15 +231,3 @@ def lay_out(module: n.Module) -> Layout:
         layout.frames[pou] = layout.place(layout.frame_record(pou).size)
     layout.find_single_bases()
     return layout
-
-
-def _located_variables(module: n.Module) -> Iterator[Variable]:
-    """Variables at an address that are declared in a POU, or named by the address alone."""
-    for pou in module.bodies:
-        yield from (v for v in pou.variables.values() if v.address is not None)
-    for body in module.bodies.values():
-        for statement in statements(body.block):
-            found = [*places(statement), *(e.place for e in expressions(statement) if isinstance(e, n.Load))]
-            for place in found:
-                if isinstance(place.root, n.Global) and place.root.variable.address is not None:
-                    yield place.root.variable

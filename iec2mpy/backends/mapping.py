@@ -24,7 +24,7 @@ def make_map(layout: Layout, sites: list[Site], program: str) -> MemoryMap:
 
 def _variables(layout: Layout, enums: dict[str, dict[str, int]]) -> Iterator[MappedVariable]:
     for variable, at in layout.globals.items():
-        yield from _leaves(layout, variable, variable.name, at, variable.retain, enums)
+        yield from _leaves(layout, variable, variable.name, at, enums)
     named: set[str] = set()
     for run, base in zip(layout.module.programs, layout.instances, strict=True):
         for variable in run.pou.variables.values():
@@ -33,11 +33,10 @@ def _variables(layout: Layout, enums: dict[str, dict[str, int]]) -> Iterator[Map
                 continue
             if variable.address is not None:
                 named.add(variable.address)
-            retain = run.retain or variable.retain
-            yield from _leaves(layout, variable, f"{run.name}.{variable.name}", position, retain, enums)
+            yield from _leaves(layout, variable, f"{run.name}.{variable.name}", position, enums)
     for address, (variable, at) in layout.located.items():
         if address not in named:
-            yield from _leaves(layout, variable, variable.name, at, variable.retain, enums)
+            yield from _leaves(layout, variable, variable.name, at, enums)
 
 
 def _position(layout: Layout, pou: object, variable: Variable, base: Size) -> Size | None:
@@ -54,13 +53,12 @@ def _position(layout: Layout, pou: object, variable: Variable, base: Size) -> Si
 
 
 def _leaves(
-    layout: Layout, variable: Variable, path: str, at: Size, retain: bool, enums: dict[str, dict[str, int]]
+    layout: Layout, variable: Variable, path: str, at: Size, enums: dict[str, dict[str, int]]
 ) -> Iterator[MappedVariable]:
     for leaf in _type_leaves(layout, variable.type, path, at, {"V": (), "O": ()}, enums):
         yield replace(
             leaf,
             address=variable.address if leaf.path == path else None,
-            retain=retain,
             constant=variable.constant,
             file=variable.span.file.path,
             line=variable.span.line,

@@ -38,7 +38,6 @@ class MappedVariable:
     high: int = 0
     dimensions: tuple[Dimension, ...] = ()
     address: str | None = None
-    retain: bool = False
     constant: bool = False
     file: str = ""
     line: int = 0

@@ -19,7 +19,7 @@ def reset_lines(layout: Layout, target: Target, runtime: dict[str, set[str]]) ->
     lines = ["", "def reset():", "    # cold start: every variable gets its initial value"]
     for array, first in (("V", FIRST), ("O", FIRST_OBJECT)):
         values: list[object] = [0] * layout.size.v if array == "V" else [None] * layout.size.o
-        for _, declared, value, at, _ in layout.storages():
+        for declared, value, at in layout.storages():
             stored = flat_values(layout, declared, value, array)
             values[at.of(array) : at.of(array) + len(stored)] = stored
         if array == "V":

@@ -120,15 +120,15 @@ class StatementWriter:
         a, b = (self.expressions.value(operand) for operand in (value.left, value.right))
         quotient, rest = self._temporary(), self._temporary()
         half = call("int", infix(call("uint", a), ">>", number(1)))
-        self._write(f"if {b.at(Binding.BIT_OR)} < 0:")
-        self._write(f"    {quotient} = int(uint({a.code}) >= uint({b.code}))")
-        self._write(f"    {rest} = {infix(a, '-', infix(Text(quotient), '*', b)).code}")
-        self._write("else:")
-        self._write(f"    {quotient} = {infix(infix(half, '//', b), '<<', number(1)).code}")
-        self._write(f"    {rest} = {infix(a, '-', infix(Text(quotient), '*', b)).code}")
-        self._write(f"    if uint({rest}) >= uint({b.code}):")
-        self._write(f"        {quotient} += 1")
-        self._write(f"        {rest} -= {b.at(Binding.TERM)}")
+        doubled = infix(infix(half, "//", b), "<<", number(1)).code
+        large = infix(b, "<", number(0))
+        if bounds(value.right)[1] >= 1 << 31:
+            doubled = f"0 if {large.code} else {doubled}"
+        self._write(f"{quotient} = {doubled}")
+        self._write(f"{rest} = {infix(a, '-', infix(Text(quotient), '*', b)).code}")
+        self._write(f"if uint({rest}) >= uint({b.code}):")
+        self._write(f"    {quotient} += 1")
+        self._write(f"    {rest} -= {b.at(Binding.TERM)}")
         self._write(f"{name} = {quotient if value.name == 'div' else rest}")
 
     def _temporary(self) -> str:

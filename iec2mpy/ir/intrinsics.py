@@ -36,9 +36,10 @@ INTRINSICS: Mapping[str, Runtime] = {
     "ATAN": _real("atan"),
     "ATAN2": _real("atan2"),
     "EXPT": _real("pow", faults=True),
-    "int_pow": Runtime("int_pow", faults=True),
     "real_to_int": Runtime("real_to_int", faults=True),
     "real_trunc": Runtime("real_trunc", faults=True),
+    "real_to_bits": Runtime("real_to_bits"),
+    "bits_to_real": Runtime("bits_to_real"),
     # strings (table 34) and their conversions
     "cut": Runtime("str_cut", "strings"),
     "LEN": Runtime("len", module=None),

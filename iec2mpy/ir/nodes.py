@@ -323,7 +323,8 @@ class ProgramRun:
 
 @dataclass(frozen=True, slots=True)
 class Module:
-    """All of an application. `bodies` by POU, callees before callers."""
+    """All of an application. `globals` with the located variables that no POU declares; `bodies` by POU, callees before
+    callers."""
 
     globals: tuple[Variable, ...]
     tasks: tuple[Task, ...]

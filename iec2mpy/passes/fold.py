@@ -53,13 +53,13 @@ def _operation(expr: n.Op, left: n.Const, right: n.Const) -> n.Expr:
 
 def _identity(expr: n.Op, name: str, left: n.Expr, right: n.Expr) -> n.Expr:
     """x + 0, x * 1, b AND TRUE and their like; not of REAL, where x + 0.0 is not always x."""
-    if isinstance(expr.type, ty.StringType) or expr.type is ty.REAL or left.type is ty.REAL:
+    if isinstance(left.type, ty.StringType) or left.type.in_objects:
         return expr
     if isinstance(left, n.Const) and name in ("add", "mul", "and", "or", "xor"):
         left, right = right, left
     if not isinstance(right, n.Const):
         return expr
-    value, ones = right.value, expr.type.high
+    value, ones = right.value, left.type.high
     if value == 0 and name in ("add", "sub", "or", "xor", "shl", "shr") or value == 1 and name in ("mul", "div"):
         return left
     if value == 0 and name in ("and", "mul"):
