@@ -180,4 +180,5 @@ def test_slots_of_the_controller_are_those_of_the_layout() -> None:
     from iec2mpy.backends import layout
     from mcu_runtime import slots
 
-    assert (slots.NOW, slots.LOOP, slots.SITE) == (layout.NOW, layout.LOOP, layout.SITE)
+    ours = (slots.NOW, slots.LOOP, slots.SITE, slots.FIRST)
+    assert ours == (layout.NOW, layout.LOOP, layout.SITE, layout.FIRST)
