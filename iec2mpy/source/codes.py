@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Code:
-    """`about` is the word of the case files' format: syntax, type, name, range, access, const, call, decl, flow, config."""
+    """`about` is the word of the case files: syntax, type, name, range, access, const, call, decl, flow, config."""
 
     title: str
     about: str

@@ -50,7 +50,12 @@ class Diagnostics:
         self._items: dict[tuple[str, object, int], Diagnostic] = {}
 
     def add(
-        self, code: str, message: str, span: Span | None = None, hint: str | None = None, related: Iterable[Related] = ()
+        self,
+        code: str,
+        message: str,
+        span: Span | None = None,
+        hint: str | None = None,
+        related: Iterable[Related] = (),
     ) -> None:
         """Record a diagnostic; whether it is an error or a warning is in the letter of its code."""
         assert code in CODES, code
@@ -60,9 +65,7 @@ class Diagnostics:
     @property
     def items(self) -> list[Diagnostic]:
         """All of them, in the order of files and lines."""
-        return sorted(
-            self._items.values(), key=lambda d: (d.span is not None, d.span.file.path if d.span else "", d.span.start if d.span else 0)
-        )
+        return sorted(self._items.values(), key=lambda d: (d.span.file.path, d.span.start) if d.span else ("", -1))
 
     @property
     def has_errors(self) -> bool:

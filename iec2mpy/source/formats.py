@@ -16,8 +16,8 @@ _SARIF_SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 
 
 def to_json(diagnostics: Iterable[Diagnostic]) -> str:
-    """A list of objects: file, line, column, end_line, end_column (from 1, the end exclusive; null where the fault has no
-    place in a text), code, severity, about, message, hint, and related (file, line, …, message)."""
+    """A list of objects: file, line, column, end_line, end_column (from 1, the end exclusive; null where the fault has
+    no place in a text), code, severity, about, message, hint, and related (file, line, …, message)."""
     return json.dumps([_as_object(diagnostic) for diagnostic in diagnostics], indent=2, ensure_ascii=False)
 
 

@@ -1,7 +1,7 @@
 """What each rule of `st.lark` makes: one function a rule (or alias), from the values of its symbols to a tree node.
 
-A value is a token, a node, a list, or None. An action gets `diagnostics` for what the grammar takes and the language, or
-this compiler, does not.
+A value is a token, a node, a list, or None. An action gets `diagnostics` for what the grammar takes and the language,
+or this compiler, does not.
 """
 
 from __future__ import annotations

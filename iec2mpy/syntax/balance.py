@@ -92,13 +92,11 @@ class _Balancer:
                     token = self._misspelling(token, tokens[at + 1])
                 elif kind.isalpha() and kind in KEYWORDS and tokens[at + 1].type == "ASSIGN" and kind != "ELSE":
                     token = self._keyword_as_name(token)
-                if not self._enter(token, at) and tokens[at + 1 : at + 2] and tokens[at + 1].type == "SEMICOLON":
+                if not self._enter(token, at) and tokens[at + 1].type == "SEMICOLON":
                     skip = at + 1
             if self._operators + self._inner + len(self._brackets) > DEEPEST_EXPRESSION:
-                self._diagnostics.add(
-                    "E0125", f"This expression has more than {DEEPEST_EXPRESSION} operators or brackets in a row.", token.span,
-                    "Split it, with a variable for each part.",
-                )  # fmt: skip
+                message = f"This expression has more than {DEEPEST_EXPRESSION} operators or brackets in a row."
+                self._diagnostics.add("E0125", message, token.span, "Split it, with a variable for each part.")
                 return None
             if len(self._blocks) > DEEPEST_BLOCK:
                 self._diagnostics.add(
@@ -213,10 +211,9 @@ class _Balancer:
         if blocks and self._next_end(at) != _ENDS[blocks[-1].type]:
             opener = blocks.pop()
             expected = _ENDS[opener.type]
-            self._diagnostics.add(
-                "E0115", f"`{opener.text}` is closed by `{expected}`, not by `{token.text}`.", token.span, f"Write `{expected}`.",
-                [Related(opener.span, "opened here")],
-            )  # fmt: skip
+            message = f"`{opener.text}` is closed by `{expected}`, not by `{token.text}`."
+            related = [Related(opener.span, "opened here")]
+            self._diagnostics.add("E0115", message, token.span, f"Write `{expected}`.", related)
             self._out.append(token.as_type(expected))
             return True
         self._diagnostics.add(
@@ -248,9 +245,9 @@ class _Balancer:
         """Which block lacks its end: an inner one of the same kind took the outer one's, if indentation says so."""
         column = opener.span.column
         for inner, end in self._pairs:
-            if inner.start > opener.start and inner.type == opener.type and inner.line < end.line:
-                if end.span.column == column and inner.span.column > column:
-                    return inner
+            same_kind = inner.start > opener.start and inner.type == opener.type and inner.line < end.line
+            if same_kind and end.span.column == column and inner.span.column > column:
+                return inner
         return opener
 
     # ---------------------------------------------------------------------------------------------- words

@@ -1,9 +1,9 @@
 """Runs the LALR tables over tokens, and goes on after errors.
 
-Lark's own loop stops at the first error, and its states cannot be searched for a way on; this one keeps the same two
-stacks and recovers as yacc does: it throws away tokens up to one that ends something (`;`, THEN, END_IF, …), pops states
-up to one where that token can follow (after an ERROR token in place of what was thrown away, or after a word that is
-missing), and goes on from there without a further message.
+Lark's own loop stops at the first error, and its states cannot be searched for a way on; this one keeps the same
+two stacks and recovers as yacc does: it throws away tokens up to one that ends something (`;`, THEN, END_IF, …), pops
+states up to one where that token can follow (after an ERROR token in place of what was thrown away, or after a word
+that is missing), and goes on from there without a further message.
 """
 
 from __future__ import annotations
@@ -27,9 +27,10 @@ _SYNCHRONIZING = frozenset({
 """Tokens at which reading can start again."""
 
 _BRIDGES: tuple[tuple[str, ...], ...] = (
-    (), ("ERROR",), ("ASSIGN", "ERROR"), ("SEMICOLON",), ("ERROR", "SEMICOLON"), ("THEN",), ("ERROR", "THEN"), ("DO",), ("ERROR", "DO"),
-    ("OF",), ("ERROR", "OF"), ("UNTIL", "ERROR"), ("RANGE", "ERROR"), ("TO", "ERROR"), ("TO", "ERROR", "DO"), ("ASSIGN", "ERROR", "TO", "ERROR", "DO"),
-    ("ERROR", "TO", "ERROR", "DO"), ("COLON", "ERROR"), ("COLON", "ERROR", "SEMICOLON"), ("ERROR", "ON", "NAME"),
+    (), ("ERROR",), ("ASSIGN", "ERROR"), ("SEMICOLON",), ("ERROR", "SEMICOLON"),
+    ("THEN",), ("ERROR", "THEN"), ("DO",), ("ERROR", "DO"), ("OF",), ("ERROR", "OF"), ("UNTIL", "ERROR"),
+    ("RANGE", "ERROR"), ("TO", "ERROR"), ("TO", "ERROR", "DO"), ("ASSIGN", "ERROR", "TO", "ERROR", "DO"), ("ERROR", "TO", "ERROR", "DO"),
+    ("COLON", "ERROR"), ("COLON", "ERROR", "SEMICOLON"),
 )  # fmt: skip
 """What can be put between what was read and the token at which reading goes on, the likeliest first."""
 

@@ -198,10 +198,7 @@ def _prefixed_number(file: SourceFile, start: int, at: int, prefix: str, diagnos
         if "#" in digits and digits == text:
             value = _based_value(digits, span, diagnostics)
             return _literal("int", value or 0, prefix, file, start, end, value is None)
-    if not text:
-        message = f"The value is missing behind `{prefix}#`."
-    else:
-        message = f"`{prefix}#{text}` is no {kind} literal."
+    message = f"`{prefix}#{text}` is no {kind} literal." if text else f"The value is missing behind `{prefix}#`."
     hint = None
     if kind == "BOOL":
         hint = "Write `BOOL#TRUE`, `BOOL#FALSE`, `BOOL#1` or `BOOL#0`."
@@ -290,11 +287,8 @@ def _decode(body: str, quote: str, span: Span, diagnostics: Diagnostics) -> str 
         else:
             shown = body[at : at + 2]
             place = Span(span.file, span.start + at, span.start + at + len(shown))
-            diagnostics.add(
-                "E0107",
-                f"`{shown}` means nothing in a string.",
-                place,
-                f"Behind `$` stand `$`, `{quote}`, L, N, P, R, T or {digits} hexadecimal digits; a dollar sign itself is `$$`.",
-            )
+            fitting = f"`$`, `{quote}`, L, N, P, R, T or {digits} hexadecimal digits"
+            hint = f"Behind `$` stand {fitting}; a dollar sign itself is `$$`."
+            diagnostics.add("E0107", f"`{shown}` means nothing in a string.", place, hint)
             return None
     return "".join(characters)

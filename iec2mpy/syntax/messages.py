@@ -63,8 +63,10 @@ _OPERATORS = frozenset(
 )
 _OPERANDS = frozenset({"NAME", "INTEGER", "LITERAL", "ENUM_VALUE", "DIRECT", "LPAR", "NOT"})
 _CONTINUES_NAME = frozenset({"ASSIGN", "LPAR", "DOT", "LSQB", "CARET", "EQ", "COLON"})
-_ENDS_STATEMENT = frozenset({*STATEMENT_WORDS, *BLOCK_ENDS.values(), "ELSE", "ELSIF", "UNTIL", "END_VAR", "END_STRUCT", "END_TYPE", "END_RESOURCE",
-                             "END_CONFIGURATION", "TASK", "PROGRAM", "RESOURCE", "VAR", "VAR_GLOBAL", "$END"})  # fmt: skip
+_ENDS_STATEMENT = frozenset({
+    *STATEMENT_WORDS, *BLOCK_ENDS.values(), "ELSE", "ELSIF", "UNTIL", "END_VAR", "END_STRUCT", "END_TYPE",
+    "END_RESOURCE", "END_CONFIGURATION", "TASK", "PROGRAM", "RESOURCE", "VAR", "VAR_GLOBAL", "$END",
+})  # fmt: skip
 _BEFORE_VALUE = frozenset({"LPAR", "ASSIGN", "COMMA", "LSQB", "SEMICOLON", "OF", "COLON", "$START"})
 _HEAD_WORDS = {"THEN": "IF and ELSIF have THEN", "DO": "FOR and WHILE have DO", "OF": "CASE has OF"}
 

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from iec2mpy.source.diagnostics import Diagnostics
 from iec2mpy.source.spans import SourceFile, Span
-from iec2mpy.syntax import declaration_actions as declaration_actions  # they enter themselves into the table of actions
-from iec2mpy.syntax import driver, tree
-from iec2mpy.syntax import statement_actions as statement_actions
+from iec2mpy.syntax import (
+    declaration_actions,  # noqa: F401 - enters its functions into the table of actions
+    driver,
+    statement_actions,  # noqa: F401 - likewise
+    tree,
+)
 from iec2mpy.syntax.balance import balance, join_split_words
 from iec2mpy.syntax.keywords import IL_OPERATORS, SFC_WORDS
 from iec2mpy.syntax.lexer import tokenize

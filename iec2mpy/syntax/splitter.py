@@ -407,10 +407,9 @@ class _Splitter:
         if token.type == expected:
             return self._take()
         if token.type in _POU_END_WORDS:
-            self._report(
-                "E0115", f"A {word.type} ends with `{expected}`, not with `{token.text}`.", token.span, f"Write `{expected}`.",
-                [Related(word.span, f"the {word.type} starts here")],
-            )  # fmt: skip
+            message = f"A {word.type} ends with `{expected}`, not with `{token.text}`."
+            related = [Related(word.span, f"the {word.type} starts here")]
+            self._report("E0115", message, token.span, f"Write `{expected}`.", related)
             return self._take()
         self._report_missing(expected, word, token)
         return self._last().inserted_after(expected, expected)
