@@ -64,9 +64,10 @@ def _only_port() -> str:
 
 def _deploy(port: str, files: Payload) -> Deployed:
     columns = (TextColumn("uploading"), BarColumn(), DownloadColumn())
+    console = Console(stderr=True)
     link = connect(port)
     try:
-        with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
             line = progress.add_task("upload", total=None)
             return deploy(link, files, lambda done, total: progress.update(line, completed=done, total=total))
     finally:
@@ -76,6 +77,6 @@ def _deploy(port: str, files: Payload) -> Deployed:
 def _report(console: Console, name: str, done: Deployed) -> None:
     release = ".".join(map(str, done.release))
     sent = f"{done.uploaded:,} bytes sent" if done.uploaded else "it was there already, and has been started anew"
-    console.print(f"{name} runs on {done.machine} with MicroPython {release} ({sent}).")
+    console.print(f"{name} runs on {done.machine} with MicroPython {release} ({sent}).", soft_wrap=True)
     for task in done.status["tasks"]:
         console.print(f"  task {task['name']}: every {task['interval'] / 1000:g} ms")
