@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import click
 
-from iec2mpy.cli.support import UserError, show_diagnostics
+from iec2mpy.cli.support import UserError, exit_code, show_diagnostics
 from iec2mpy.source.diagnostics import CompileError
 
 COMMANDS = {
@@ -72,7 +72,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _say(str(error), error.exit_code)
     except CompileError as error:
         show_diagnostics(error.diagnostics)
-        return 1
+        return exit_code(error.diagnostics)
     except click.exceptions.NoArgsIsHelpError as error:
         click.echo(error.format_message(), err=True)
         return 2

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import click
 
-from iec2mpy.cli.support import load_program, show_diagnostics
-from iec2mpy.source.diagnostics import CompileError, Diagnostic, Severity
+from iec2mpy.cli.support import exit_code, show_diagnostics
+from iec2mpy.source.diagnostics import CompileError, Diagnostic
 
 _HELP = """Look for errors in a program, and build nothing.
 
@@ -36,11 +36,10 @@ def command(paths: tuple[Path, ...], form: str) -> None:
         from iec2mpy.source import formats
 
         click.echo(formats.to_json(diagnostics) if form == "json" else formats.to_sarif(diagnostics))
-    failed = any(d.severity is Severity.ERROR for d in diagnostics)
-    if form == "text" and not failed:
+    code = exit_code(diagnostics)
+    if form == "text" and code == 0:
         click.echo("No errors." if not diagnostics else "No errors, only warnings.")
-    if failed:
-        raise click.exceptions.Exit(1)
+    raise click.exceptions.Exit(code)
 
 
 def _programs(paths: Sequence[Path]) -> list[list[Path]]:
@@ -51,10 +50,15 @@ def _programs(paths: Sequence[Path]) -> list[list[Path]]:
 
 
 def _check(paths: Sequence[Path]) -> Sequence[Diagnostic]:
+    """All that is said of one program; of a project also what its board lacks."""
+    from iec2mpy.project.build import build_project
     from iec2mpy.project.compile import check_files
+    from iec2mpy.project.config import load_project
+    from iec2mpy.source.files import read_sources
 
     try:
-        program = load_program(paths)
-        return check_files(program.files, program.interval_us).warnings
+        if paths and not paths[0].is_dir():
+            return check_files(read_sources(paths)).warnings
+        return build_project(load_project(paths[0] if paths else Path())).warnings
     except CompileError as error:
         return error.diagnostics

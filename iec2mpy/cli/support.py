@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from iec2mpy.source.diagnostics import Diagnostic
     from iec2mpy.source.spans import SourceFile
 
+_NO_SUCH_FILE = {"E0001", "E0844"}
 F = TypeVar("F", bound=Callable[..., Any])
 
 
@@ -52,6 +53,12 @@ def load_program(paths: Sequence[Path]) -> Program:
     project = load_project(folders[0] if folders else Path())
     show_diagnostics(project.warnings)
     return Program(project.name, read_sources(project.sources), project.interval, project)
+
+
+def exit_code(diagnostics: Sequence[Diagnostic]) -> int:
+    """0 without errors, 1 for errors in the user's program, 2 where there is no such file or project."""
+    errors = [d.code for d in diagnostics if not d.code.startswith("W")]
+    return 2 if _NO_SUCH_FILE & set(errors) else int(bool(errors))
 
 
 def show_diagnostics(diagnostics: Sequence[Diagnostic]) -> None:

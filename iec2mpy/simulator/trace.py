@@ -79,7 +79,7 @@ def draw_svg(trace: Trace, path: Path, title: str) -> None:
 def _draw_numbers(axes: Axes, trace: Trace, columns: Sequence[Column], seconds: Sequence[float]) -> None:
     for column in columns:
         axes.plot(seconds, trace.series(column), label=column.name, linewidth=1.2)
-    axes.legend(loc="upper right")
+    axes.legend(loc="best")
     axes.grid(alpha=0.3)
 
 
