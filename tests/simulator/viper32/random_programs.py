@@ -33,6 +33,7 @@ f()
 """
 RESULT = "(list(V), list(H), list(B))"
 _DEPTH = 3
+_FORMS = ["ring", "bits", "literal", "shift", "divide", "choose", "logic", "test", "cast", "call"]
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,10 @@ class Pair:
 class Program:
     host: str
     board: str
+
+
+def _same(text: str) -> Pair:
+    return Pair(text, text)
 
 
 def _signed(text: str) -> str:
@@ -67,7 +72,7 @@ def _number(draw: st.DrawFn, depth: int) -> Pair:
     """An `int`. A literal never stands alone, so that nothing is folded."""
     if depth == 0 or draw(st.integers(0, 4)) == 0:
         return draw(_leaf())
-    kind = draw(st.sampled_from(["ring", "bits", "literal", "shift", "divide", "choose", "logic", "test", "cast", "call"]))
+    kind = draw(st.sampled_from(_FORMS))
     a = draw(_number(depth - 1))
     if kind == "test":
         c = draw(_comparison(depth - 1))
@@ -78,14 +83,14 @@ def _number(draw: st.DrawFn, depth: int) -> Pair:
     if kind == "shift":
         operator = draw(st.sampled_from(["<<", ">>"]))
         b = draw(_number(depth - 1))
-        n = draw(st.one_of(st.integers(0, 31).map(lambda n: Pair(str(n), str(n))), st.just(_masked(b, 31))))
+        n = draw(st.one_of(st.integers(0, 31).map(lambda n: _same(str(n))), st.just(_masked(b, 31))))
         host = f"({a.host} {operator} {n.host})"
         return Pair(_signed(host) if operator == "<<" else host, f"({a.board} {operator} {n.board})")
     if kind == "divide":
         operator = draw(st.sampled_from(["//", "%"]))
-        b = draw(_number(depth - 1))
-        literal = draw(st.integers(-1000, 1000).filter(lambda n: n != 0))
-        d = draw(st.sampled_from([Pair(str(literal), str(literal)), Pair(f"(({b.host} & 1023) + 1)", f"(({b.board} & 1023) + 1)")]))
+        b = _masked(draw(_number(depth - 1)), 1023)
+        literal = draw(st.integers(-1000, 1000).filter(bool))
+        d = draw(st.sampled_from([_same(str(literal)), Pair(f"({b.host} + 1)", f"({b.board} + 1)")]))
         return Pair(f"(({a.host} >> 2) {operator} {d.host})", f"(({a.board} >> 2) {operator} {d.board})")
     if kind == "literal":
         operator = draw(st.sampled_from(["+", "-", "*", "&", "|", "^"]))
@@ -116,7 +121,7 @@ def _masked(number: Pair, mask: int) -> Pair:
 def _leaf(draw: st.DrawFn) -> Pair:
     kind = draw(st.sampled_from(["local", "v", "v", "h", "q"]))
     if kind == "local":
-        return draw(st.integers(0, 3).map(lambda n: Pair(f"t{n}", f"t{n}")))
+        return draw(st.integers(0, 3).map(lambda n: _same(f"t{n}")))
     slot = draw(st.sampled_from([*map(str, range(8)), "t0 & 7", "t1 & 7"]))
     load = f"{kind}[{slot}]"
     return Pair(_signed(load) if kind == "v" else load, load)
@@ -181,10 +186,6 @@ def _store(draw: st.DrawFn) -> list[Pair]:
 
 def _indented(lines: list[Pair]) -> list[Pair]:
     return [Pair(f"    {line.host}", f"    {line.board}") for line in lines]
-
-
-def _same(text: str) -> Pair:
-    return Pair(text, text)
 
 
 @st.composite

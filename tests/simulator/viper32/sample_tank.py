@@ -1,4 +1,4 @@
-"""A program as viper code, written by hand, and 56 scans of it: the level falls, rises, and leaves the range of an index."""
+"""A program as viper code, written by hand, and 56 scans of it: the level falls and rises, an index goes wild."""
 
 TEXT = '''\
 import micropython

@@ -42,3 +42,9 @@ def test_quotient_of_the_runtime_overflows(micropython: Micropython) -> None:
     text = "import micropython\n@micropython.viper\ndef f(a: int, b: int) -> int:\n    return a // b\n"
     assert micropython.value(text, "f(-(1 << 63), 10)") == 922337203685477579
     assert micropython.value(text, "f(-(1 << 63) + 9, 10)") == (-(1 << 63) + 9) // 10
+
+
+def test_unary_operators_overwrite_a_local(micropython: Micropython) -> None:
+    """Until August 2026, so the model refuses them."""
+    text = "import micropython\n@micropython.viper\ndef f(a: int) -> int:\n    b = -a\n    return a\n"
+    assert micropython.value(text, "f(5)") == -5

