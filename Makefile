@@ -15,18 +15,20 @@ help:
 	@echo "make clean  remove .venv and everything that was built"
 
 $(VENV)/installed: pyproject.toml .ci/make_venv.py
-	$(PYTHON) .ci/make_venv.py $(VENV)
-	$(BIN)/python -m pip install --quiet --editable .
+	@echo "Installing iec2mpy into $(VENV)"
+	@$(PYTHON) .ci/make_venv.py $(VENV)
+	@$(BIN)/python -m pip install --quiet --editable .
 	@touch $@
 
 $(VENV)/installed-dev: $(VENV)/installed
-	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	@echo "Installing what the tests need into $(VENV)"
+	@$(BIN)/python -m pip install --quiet --editable '.[dev]'
 	@touch $@
 
 demo: $(VENV)/installed
 	@mkdir -p $(DEMO)
 	$(BIN)/iec2mpy run examples/tank --for T#60s --set main.simulated=true \
-	    --watch main.level --watch main.too_low.et --trace $(DEMO)/tank.csv --plot $(DEMO)/tank.svg
+	    --watch main.level --trace $(DEMO)/tank.csv --plot $(DEMO)/tank.svg
 
 test: $(VENV)/installed-dev
 	$(BIN)/python -m pytest -n auto
