@@ -24,6 +24,7 @@ COMMANDS = {
 }
 """The commands in the order in which a newcomer needs them, each with the line that `iec2mpy --help` shows."""
 
+_DEBUG = "IEC2MPY_DEBUG"
 _HELP = """Programs for small PLCs: from IEC 61131-3 Structured Text to a MicroPython board.
 
 \b
@@ -54,12 +55,23 @@ class _LazyGroup(click.Group):
             formatter.write_dl(list(COMMANDS.items()))
 
 
+def _set_debug(_context: click.Context, _option: click.Parameter, debug: bool) -> None:
+    if debug:
+        os.environ[_DEBUG] = "1"
+
+
 @click.group(cls=_LazyGroup, help=_HELP, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="iec2mpy", prog_name="iec2mpy", message="%(prog)s %(version)s")
-@click.option("--debug", is_flag=True, help="Show the traceback of a fault of iec2mpy itself.")
-def cli(debug: bool) -> None:
-    if debug:
-        os.environ["IEC2MPY_DEBUG"] = "1"
+@click.option(
+    "--debug",
+    is_flag=True,
+    is_eager=True,  # before the command's module is imported, which may fail, too
+    expose_value=False,
+    callback=_set_debug,
+    help="Show the traceback of a fault of iec2mpy itself; so does IEC2MPY_DEBUG=1.",
+)
+def cli() -> None:
+    """What `main` runs."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -107,7 +119,7 @@ def _say_what_failed(error: Exception) -> int:
 
     if isinstance(error, EngineUnavailable):
         return _say(str(error), 2)
-    if os.environ.get("IEC2MPY_DEBUG"):
+    if os.environ.get(_DEBUG):
         traceback.print_exc()
     place = traceback.extract_tb(error.__traceback__)[-1]
     return _say(

@@ -1,0 +1,125 @@
+"""Standard functions that are more than an operator: one small function a family, chosen by a table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from iec2mpy.ir import nodes as n
+from iec2mpy.ir.build.context import Context
+from iec2mpy.ir.build.conversions import fit_string
+from iec2mpy.ir.intrinsics import INTRINSICS
+from iec2mpy.ir.walk import parts
+from iec2mpy.semantics import types as ty
+
+Lowering = Callable[[Context, str, list[n.Expr], n.ValueType], n.Expr]
+
+
+def lower_builtin(context: Context, name: str, arguments: Sequence[n.Expr], result: n.ValueType) -> n.Expr:
+    """The call of a standard function, by its name in `stdlib/functions.toml`."""
+    # all arguments of a call are evaluated, also those that are not selected: one that may fault is evaluated now
+    values = [context.spill(a) if _may_fault(a) else a for a in arguments]
+    return _LOWERINGS.get(name, _intrinsic)(context, name, values, result)
+
+
+def power(context: Context, base: n.Expr, exponent: n.Expr, result: n.ValueType) -> n.Expr:
+    """`**`: a REAL to the power of any number (table 29, EXPT)."""
+    context.emit(n.Mark(context.site))
+    return n.Intrinsic("EXPT", (base, exponent), result)
+
+
+def _may_fault(value: n.Expr) -> bool:
+    return any(isinstance(p, n.Intrinsic) and INTRINSICS[p.name].faults for p in parts(value))
+
+
+def _intrinsic(context: Context, name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    if INTRINSICS[name].faults:
+        context.emit(n.Mark(context.site))
+    value = n.Intrinsic(name, tuple(arguments), result)
+    return fit_string(value, result) if isinstance(result, ty.StringType) else value
+
+
+def _now(_context: Context, _name: str, _arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    return n.Now(result)
+
+
+def _abs(context: Context, name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    if result is ty.REAL:
+        return n.Intrinsic(name, tuple(arguments), result)
+    value = context.atom(arguments[0])
+    zero = n.Const(0, result)
+    negated = n.Wrap(n.Op("sub", zero, value, result), result)
+    return n.Select(n.Op("lt", value, zero, ty.BOOL), negated, value, result)
+
+
+def _sel(context: Context, _name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    selector, if_false, if_true = arguments
+    return n.Select(selector, if_true, if_false, result)
+
+
+def _extreme(context: Context, name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    comparison = {"MAX": "ge", "MIN": "le"}[name]
+    best = context.atom(arguments[0])
+    for argument in arguments[1:]:
+        value = context.atom(argument)
+        better = n.Select(n.Op(comparison, best, value, ty.BOOL), best, value, result)
+        best = better if argument is arguments[-1] else context.spill(better)
+    return best
+
+
+def _limit(context: Context, _name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    low, value, high = arguments
+    return _extreme(context, "MIN", [_extreme(context, "MAX", [value, low], result), high], result)
+
+
+def _mux(context: Context, _name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    selector, *values = arguments
+    selector = context.atom(selector)
+    last = n.Const(len(values) - 1, selector.type)
+    outside = n.Op("gt", selector, last, ty.BOOL)
+    if isinstance(selector.type, ty.ElementaryType) and selector.type.low < 0:
+        outside = n.Op("or", n.Op("lt", selector, n.Const(0, selector.type), ty.BOOL), outside, ty.BOOL)
+    context.emit(n.Guard(outside, "range", context.site))
+    chosen = values[-1]
+    for number in reversed(range(len(values) - 1)):
+        condition = n.Op("eq", selector, n.Const(number, selector.type), ty.BOOL)
+        chosen = n.Select(condition, values[number], chosen, result)
+    return chosen
+
+
+def _shift(context: Context, name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    """SHL, SHR: by the width or more leaves nothing; ROL, ROR: the count is taken modulo the width."""
+    value, count = arguments
+    assert isinstance(result, ty.ElementaryType)
+    width = result.bits
+    value = context.atom(value)
+    count = context.atom(count)
+    if isinstance(count.type, ty.ElementaryType) and count.type.low < 0:
+        negative = n.Op("lt", count, n.Const(0, count.type), ty.BOOL)
+        context.emit(n.Guard(negative, "range", context.site))
+    if name in ("ROL", "ROR"):
+        places = n.Op("and", count, n.Const(width - 1, count.type), count.type) if width > 1 else n.Const(0, ty.INT)
+        if isinstance(places, n.Const) and places.value == 0:
+            return value
+        places = context.atom(places)
+        unmoved = n.Op("eq", places, n.Const(0, places.type), ty.BOOL)
+        return n.Select(unmoved, value, n.Op(name.lower(), value, places, result), result)
+    moved = n.Op(name.lower(), value, count, result)
+    if name == "SHL":
+        moved = n.Wrap(moved, result)
+    fits = n.Op("lt", count, n.Const(width, count.type), ty.BOOL)
+    return n.Select(fits, moved, n.Const(0, result), result)
+
+
+_LOWERINGS: dict[str, Lowering] = {
+    "__NOW": _now,
+    "ABS": _abs,
+    "SEL": _sel,
+    "MAX": _extreme,
+    "MIN": _extreme,
+    "LIMIT": _limit,
+    "MUX": _mux,
+    "SHL": _shift,
+    "SHR": _shift,
+    "ROL": _shift,
+    "ROR": _shift,
+}

@@ -1,0 +1,139 @@
+"""The body under construction: where statements are added, and where temporaries come from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from iec2mpy.ir import nodes as n
+from iec2mpy.ir.walk import parts
+from iec2mpy.semantics import typed as t
+from iec2mpy.semantics import types as ty
+from iec2mpy.source.spans import Span
+
+FALSE = n.Const(0, ty.BOOL)
+TRUE = n.Const(1, ty.BOOL)
+
+
+class Context:
+    """Collects the statements of one POU. The block that is open receives what is emitted."""
+
+    def __init__(self, pou: t.Pou) -> None:
+        self.pou = pou
+        self.hidden: list[t.Variable] = []
+        self.locals = 0
+        self.controls: dict[t.Variable, n.Local] = {}
+        self._block: list[n.Stmt] = []
+        self._span = pou.span
+
+    # ------------------------------------------------------------------------------- statements
+
+    def emit(self, statement: n.Stmt) -> None:
+        self._block.append(statement)
+
+    def line(self, span: Span) -> None:
+        """A new source statement begins."""
+        self._span = span
+        self.emit(n.Line(span))
+
+    @property
+    def site(self) -> n.Site:
+        """The place of the current source statement, for faults."""
+        return n.Site(self._span, self.pou)
+
+    @contextmanager
+    def block(self) -> Iterator[list[n.Stmt]]:
+        """Opens an inner block; what is emitted meanwhile goes there."""
+        outer, self._block = self._block, []
+        try:
+            yield self._block
+        finally:
+            self._block = outer
+
+    @property
+    def statements(self) -> n.Block:
+        return tuple(self._block)
+
+    # ------------------------------------------------------------------------------ temporaries
+
+    def new_local(self, value_type: n.ValueType, low: int | None = None, high: int | None = None) -> n.Local:
+        local = n.Local(self.locals, value_type, low, high)
+        self.locals += 1
+        return local
+
+    def spill(self, value: n.Expr) -> n.Local:
+        """The value, computed here and now."""
+        local = self.new_local(value.type)
+        self.emit(n.SetLocal(local, value))
+        return local
+
+    def atom(self, value: n.Expr) -> n.Expr:
+        """The value in a form that may be written several times: a constant, a local, a plain variable."""
+        return value if is_atom(value) else self.spill(value)
+
+    def new_hidden(self, value_type: ty.Type, initial: t.Value) -> n.Place:
+        """A nameless variable of the frame, for a whole array or structure."""
+        variable = t.Variable(f"__{len(self.hidden)}", value_type, None, self._span, initial, owner=self.pou)
+        self.hidden.append(variable)
+        return n.Place(n.Frame(self.pou), (n.Field(variable),), value_type)
+
+    @contextmanager
+    def bound(self, control: t.Expr, current: n.Local) -> Iterator[None]:
+        """Inside a FOR, its control variable has the value of a local, whose bounds are known. Nothing in the body may write
+        it; a global one might be written by a body that is called, and is read from its slot."""
+        if not isinstance(control, t.VariableRef) or control.variable.owner is None:
+            yield
+            return
+        self.controls[control.variable] = current
+        yield
+        del self.controls[control.variable]
+
+    # ---------------------------------------------------------------------- order of evaluation
+
+    def mark(self) -> int:
+        """A point in the open block, for `settle`."""
+        return len(self._block)
+
+    def settle(self, mark: int, values: list[n.Expr]) -> list[n.Expr]:
+        """Keeps the order of evaluation from left to right: where something with an effect was emitted since `mark`,
+        values that were worked out before it are stored in locals at the mark."""
+        if not any(isinstance(s, (n.Call, n.Store, n.Copy, n.If, n.While)) for s in self._block[mark:]):
+            return values
+        settled = []
+        for value in values:
+            if isinstance(value, (n.Const, n.Local)):
+                settled.append(value)
+                continue
+            local = self.new_local(value.type)
+            self._block.insert(mark, n.SetLocal(local, value))
+            mark += 1
+            settled.append(local)
+        return settled
+
+    def settle_place(self, mark: int, place: n.Place) -> n.Place:
+        """`settle`, for the subscripts of a place."""
+        indices = [step.index for step in place.steps if isinstance(step, n.Element)]
+        if isinstance(place.root, n.Deref):
+            place = n.Place(n.Deref(self.settle_place(mark, place.root.reference)), place.steps, place.type)
+        settled = iter(self.settle(mark, indices))
+        steps = tuple(n.Element(next(settled)) if isinstance(step, n.Element) else step for step in place.steps)
+        return n.Place(place.root, steps, place.type)
+
+
+def is_atom(value: n.Expr) -> bool:
+    """Whether writing the value twice costs little, and means the same."""
+    if isinstance(value, n.Load):
+        root = value.place.root
+        return not isinstance(root, n.Deref) and all(isinstance(step, n.Field) for step in value.place.steps)
+    return isinstance(value, (n.Const, n.Local, n.Now))
+
+
+def reads(value: n.Expr, variables: set[t.Variable]) -> bool:
+    """Whether the value reads one of these variables, or might, through an in-out."""
+    for part in parts(value):
+        if isinstance(part, n.Load):
+            if isinstance(part.place.root, n.Deref):
+                return True
+            if any(isinstance(step, n.Field) and step.variable in variables for step in part.place.steps):
+                return True
+    return False

@@ -1,0 +1,88 @@
+"""Conversions between elementary types (tables 22 to 27): what each pair of kinds means.
+
+Between numbers, a value out of range faults; from and to bit strings the low bits are kept.
+"""
+
+from __future__ import annotations
+
+from iec2mpy.ir import nodes as n
+from iec2mpy.ir.build.context import Context
+from iec2mpy.ir.build.places import check_range
+from iec2mpy.semantics import types as ty
+from iec2mpy.semantics.types import Kind
+
+_TO_STRING = {
+    Kind.BOOL: "bool_to_str",
+    Kind.SIGNED: "int_to_str",
+    Kind.UNSIGNED: "int_to_str",
+    Kind.BITS: "int_to_str",
+    Kind.REAL: "real_to_str",
+    Kind.DURATION: "time_to_str",
+}
+_BITS = (Kind.BOOL, Kind.BITS)
+_UNSIGNED = {1: ty.BOOL, 8: ty.BYTE, 16: ty.WORD, 32: ty.DWORD}
+
+
+def convert(context: Context, value: n.Expr, target: n.ValueType, truncate: bool) -> n.Expr:
+    """The value as one of the target type."""
+    source = value.type
+    if source == target:
+        return value
+    if isinstance(target, ty.StringType):
+        return _to_string(value, target)
+    if isinstance(source, ty.StringType):
+        return _from_string(context, value, target)
+    if source.kind is Kind.REAL:
+        return _from_real(context, value, target, truncate)
+    if target.kind is Kind.REAL:
+        # a bit string of the same width is the number's own bits (6.6.2.5.5)
+        return n.Intrinsic("bits_to_real", (value,), target) if source is ty.DWORD else n.ToReal(value, target)
+    if target.kind is Kind.BOOL:
+        # to BOOL the lowest bit is kept (table 24)
+        lowest = n.Op("and", n.Wrap(value, ty.DWORD), n.Const(1, ty.DWORD), ty.DWORD)
+        return n.Op("ne", lowest, n.Const(0, ty.DWORD), ty.BOOL)
+    if source.kind in _BITS or target.kind in _BITS:
+        # the bits are moved as they are: a sign is not spread
+        return n.Wrap(n.Wrap(value, _UNSIGNED[source.bits]), target)
+    return n.Wrap(check_range(context, value, target.low, target.high, "range"), target)
+
+
+def real_result(context: Context, value: n.Expr, target: ty.ElementaryType, truncate: bool) -> n.Expr:
+    """A REAL as an integer: rounded half to even or truncated; a value out of range faults."""
+    context.emit(n.Mark(context.site))
+    bounds = (n.Const(target.low, ty.DINT), n.Const(target.high, ty.DINT))
+    return n.Intrinsic("real_trunc" if truncate else "real_to_int", (value, *bounds), target)
+
+
+def _from_real(context: Context, value: n.Expr, target: ty.ElementaryType, truncate: bool) -> n.Expr:
+    if target is ty.DWORD:
+        return n.Intrinsic("real_to_bits", (value,), target)
+    return real_result(context, value, target, truncate)
+
+
+def _to_string(value: n.Expr, target: ty.StringType) -> n.Expr:
+    if isinstance(value.type, ty.StringType):
+        return fit_string(value, target)
+    return n.Intrinsic(_TO_STRING[value.type.kind], (value,), target)
+
+
+def _from_string(context: Context, value: n.Expr, target: ty.ElementaryType) -> n.Expr:
+    context.emit(n.Mark(context.site))
+    if target.kind is Kind.REAL:
+        return n.Intrinsic("str_to_real", (value,), target)
+    if target.kind is Kind.BOOL:
+        return n.Intrinsic("str_to_bool", (value,), target)
+    if target.kind is Kind.DURATION:
+        return n.Intrinsic("str_to_time", (value,), target)
+    return n.Intrinsic("str_to_int", (value, n.Const(target.low, ty.DINT), n.Const(target.high, ty.DINT)), target)
+
+
+def fit_string(value: n.Expr, target: ty.StringType) -> n.Expr:
+    """The string cut to the capacity of where it goes, if it can be longer."""
+    source = value.type
+    assert isinstance(source, ty.StringType)
+    if isinstance(value, n.Const):
+        return n.Const(str(value.value)[: target.length], target)
+    if source.length <= target.length and not isinstance(value, n.Intrinsic):
+        return value
+    return n.Intrinsic("cut", (value, n.Const(target.length, ty.INT)), target)

@@ -1,0 +1,160 @@
+"""Expressions: from the checked tree to pure IR, with whatever has an effect emitted before it, from left to right."""
+
+from __future__ import annotations
+
+from iec2mpy.ir import nodes as n
+from iec2mpy.ir.build import calls
+from iec2mpy.ir.build.builtins import lower_builtin, power
+from iec2mpy.ir.build.context import Context
+from iec2mpy.ir.build.conversions import convert, real_result
+from iec2mpy.ir.build.places import lower_place
+from iec2mpy.ir.build.stores import assign
+from iec2mpy.semantics import typed as t
+from iec2mpy.semantics import types as ty
+
+_COMPARISONS = {"=": "eq", "<>": "ne", "<": "lt", ">": "gt", "<=": "le", ">=": "ge"}
+_BITWISE = {"AND": "and", "OR": "or", "XOR": "xor"}
+_ARITHMETIC = {"+": "add", "-": "sub", "*": "mul"}
+
+
+def lower_expr(context: Context, expr: t.Expr) -> n.Expr:
+    """The value of an expression that has a single one (`value_type` of its type is not None)."""
+    match expr:
+        case t.Constant(value):
+            return n.Const(value, stored_type(expr.type))
+        case t.VariableRef(variable) if variable in context.controls:
+            return context.controls[variable]
+        case t.VariableRef() | t.DirectRef() | t.FieldRef() | t.ElementRef():
+            return n.Load(lower_place(context, expr, lower_expr), stored_type(expr.type))
+        case t.Convert(operand):
+            return convert(context, lower_expr(context, operand), stored_type(expr.type), expr.truncate)
+        case t.Unary(operator, operand):
+            return _unary(operator, lower_expr(context, operand))
+        case t.Binary(operator, left, right):
+            left_value, right_value = lower_all(context, (left, right))
+            return _binary(context, operator, left_value, right_value, stored_type(expr.type))
+        case t.BuiltinCall(name, arguments):
+            return lower_builtin(context, name, lower_all(context, arguments), stored_type(expr.type))
+        case t.FunctionCall():
+            result = calls.call_function(context, expr)
+            assert result is not None, "the checker lets only functions with a result into expressions"
+            return context.spill(n.Load(result, stored_type(expr.type)))
+
+
+def lower_aggregate(context: Context, expr: t.Expr) -> n.Place:
+    """Where a whole array or structure is."""
+    if isinstance(expr, t.FunctionCall):
+        result = calls.call_function(context, expr)
+        assert result is not None, "the checker lets only functions with a result into expressions"
+        return result
+    return lower_place(context, expr, lower_expr)
+
+
+def assign_expr(context: Context, target: t.Expr, value: t.Expr) -> None:
+    """`target := value`, for single values and whole arrays and structures. The target's subscripts come first."""
+    place = lower_place(context, target, lower_expr)
+    mark = context.mark()
+    assert target.type is not None
+    if ty.value_type(target.type) is None:
+        source = lower_aggregate(context, value)
+        context.emit(n.Copy(context.settle_place(mark, place), source))
+    else:
+        lowered = lower_expr(context, value)
+        assign(context, context.settle_place(mark, place), target.type, lowered)
+
+
+def lower_all(context: Context, exprs: tuple[t.Expr, ...]) -> list[n.Expr]:
+    """The values of several expressions, in their order."""
+    values: list[n.Expr] = []
+    for expr in exprs:
+        mark = context.mark()
+        value = lower_expr(context, expr)
+        values = [*context.settle(mark, values), value]
+    return values
+
+
+def stored_type(declared: ty.Type | None) -> n.ValueType:
+    """What a single value of this type is stored as."""
+    assert declared is not None
+    stored = ty.value_type(declared)
+    assert stored is not None, f"{declared} is no single value"
+    return stored
+
+
+def _unary(operator: str, operand: n.Expr) -> n.Expr:
+    if operator == "NOT":
+        return n.Not(operand, operand.type)
+    if operand.type is ty.REAL:
+        # 0.0 - x would lose the sign of zero
+        return n.Op("mul", operand, n.Const(-1.0, ty.REAL), ty.REAL)
+    return n.Wrap(n.Op("sub", n.Const(0, operand.type), operand, operand.type), operand.type)
+
+
+def _binary(context: Context, operator: str, left: n.Expr, right: n.Expr, result: n.ValueType) -> n.Expr:
+    if operator in _COMPARISONS:
+        return n.Op(_COMPARISONS[operator], left, right, ty.BOOL)
+    if operator in _BITWISE:
+        return n.Op(_BITWISE[operator], left, right, result)
+    if operator == "**":
+        return power(context, left, right, result)
+    if result is ty.TIME and right.type is not ty.TIME:
+        return _scaled_time(context, operator, left, right)
+    if operator == "MOD":
+        return _modulo(context, left, right, result)
+    if operator == "/":
+        return divide(context, left, right, result)
+    value = n.Op(_ARITHMETIC[operator], left, right, result)
+    return value if result is ty.REAL else n.Wrap(value, result)
+
+
+def divide(context: Context, left: n.Expr, right: n.Expr, result: n.ValueType) -> n.Expr:
+    """Division; by zero it faults, integers truncate."""
+    right = _checked_divisor(context, right)
+    if result is ty.REAL:
+        return n.Op("div", left, right, result)
+    return n.Wrap(_integer_division(context, "div", left, right, result), result)
+
+
+def _modulo(context: Context, left: n.Expr, right: n.Expr, result: n.ValueType) -> n.Expr:
+    """MOD; by zero it gives 0, as table 29 says."""
+    if isinstance(right, n.Const):
+        return _integer_division(context, "mod", left, right, result) if right.value else n.Const(0, result)
+    left, right = context.atom(left), context.atom(right)
+    quotient = context.new_local(result)
+    zero = n.Op("eq", right, n.Const(0, right.type), ty.BOOL)
+    with context.block() as then:
+        context.emit(n.SetLocal(quotient, n.Const(0, result)))
+    with context.block() as otherwise:
+        context.emit(n.SetLocal(quotient, n.Op("mod", left, right, result)))
+    context.emit(n.If(zero, tuple(then), tuple(otherwise)))
+    return quotient
+
+
+def _checked_divisor(context: Context, divisor: n.Expr) -> n.Expr:
+    if isinstance(divisor, n.Const) and divisor.value != 0:
+        return divisor
+    divisor = context.atom(divisor)
+    context.emit(n.Guard(n.Op("eq", divisor, n.Const(0, divisor.type), ty.BOOL), "zero", context.site))
+    return divisor
+
+
+def _integer_division(
+    context: Context, name: str, left: n.Expr, right: n.Expr, result: n.ValueType
+) -> n.Expr:
+    """The operands are written several times where a backend has to mend the sign, so they are atoms. Unsigned ones of 32
+    bits take several statements on a 32-bit machine, so their result is a local of its own."""
+    value = n.Op(name, context.atom(left), right, result)
+    return context.spill(value) if result in (ty.UDINT, ty.DWORD) else value
+
+
+def _scaled_time(context: Context, operator: str, time: n.Expr, factor: n.Expr) -> n.Expr:
+    """TIME * number and TIME / number (table 35)."""
+    if factor.type is ty.REAL:
+        value = n.ToReal(time, ty.REAL)
+        name = "mul"
+        if operator == "/":
+            factor, name = _checked_divisor(context, factor), "div"
+        return real_result(context, n.Op(name, value, factor, ty.REAL), ty.TIME, truncate=False)
+    if operator == "/":
+        return divide(context, time, factor, ty.TIME)
+    return n.Wrap(n.Op("mul", time, factor, ty.TIME), ty.TIME)

@@ -1,0 +1,105 @@
+"""Places: variables, their fields and elements, with the check of each index."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from iec2mpy.ir import nodes as n
+from iec2mpy.ir.build.context import Context
+from iec2mpy.semantics import typed as t
+from iec2mpy.semantics import types as ty
+from iec2mpy.syntax.tree import PouKind, Section
+
+LowerExpr = Callable[[Context, t.Expr], n.Expr]
+
+
+def variable_place(variable: t.Variable) -> n.Place:
+    """Where a variable lives, seen from any body that may name it."""
+    own = storage_place(variable)
+    return n.Place(n.Deref(own), (), own.type) if variable.section is Section.IN_OUT else own
+
+
+def storage_place(variable: t.Variable) -> n.Place:
+    """The variable's own storage: for an in-out, that of its reference."""
+    declared = ty.unaliased(variable.type)
+    owner = variable.owner
+    if owner is None or variable.address is not None:
+        return n.Place(n.Global(variable), (), declared)
+    in_frame = owner.kind is PouKind.FUNCTION or variable.section is Section.TEMP
+    root = n.Frame(owner) if in_frame else n.Self(owner)
+    return n.Place(root, (n.Field(variable),), declared)
+
+
+def field_place(base: n.Place, variable: t.Variable) -> n.Place:
+    """A field of a structure, or a variable of an instance; an in-out of it is followed."""
+    place = n.Place(base.root, (*base.steps, n.Field(variable)), ty.unaliased(variable.type))
+    return n.Place(n.Deref(place), (), place.type) if variable.section is Section.IN_OUT else place
+
+
+def lower_place(context: Context, expr: t.Expr, lower_expr: LowerExpr) -> n.Place:
+    """The place that a variable, field or element names; checks of indices are emitted."""
+    match expr:
+        case t.VariableRef(variable) | t.DirectRef(variable):
+            return variable_place(variable)
+        case t.FieldRef(base, variable):
+            return field_place(lower_place(context, base, lower_expr), variable)
+        case t.ElementRef(base, indices):
+            base_place = lower_place(context, base, lower_expr)
+            mark = context.mark()
+            index = _flat_index(context, base_place.type, indices, lower_expr)
+            base_place = context.settle_place(mark, base_place)
+            return n.Place(base_place.root, (*base_place.steps, n.Element(index)), ty.unaliased(expr.type))
+        case _:
+            raise AssertionError(f"not a variable: {expr}")
+
+
+def _flat_index(context: Context, array: ty.Type, indices: tuple[t.Expr, ...], lower_expr: LowerExpr) -> n.Expr:
+    """The element's number from 0: rows first (6.4.4.5.1)."""
+    assert isinstance(array, ty.ArrayType)
+    values: list[n.Expr] = []
+    for index in indices:
+        mark = context.mark()
+        value = lower_expr(context, index)
+        values = [*context.settle(mark, values), value]
+    flat: n.Expr = n.Const(0, ty.DINT)
+    for value, (low, high) in zip(values, array.bounds, strict=True):
+        offset = _offset(context, value, low, high)
+        flat = _add(_multiply(flat, high - low + 1), offset)
+    return flat
+
+
+def _offset(context: Context, value: n.Expr, low: int, high: int) -> n.Expr:
+    """The index less its lower bound, checked: a wrong one would be a wild write."""
+    if isinstance(value, n.Const):
+        return n.Const(value.number - low, ty.DINT)
+    value = check_range(context, value, low, high, "index")
+    return _add(value, n.Const(-low, ty.DINT))
+
+
+def check_range(context: Context, value: n.Expr, low: int, high: int, fault: str) -> n.Expr:
+    """The value, which was checked to be inside the bounds; as an atom, if a check was needed."""
+    assert isinstance(value.type, ty.ElementaryType)
+    checks = [("lt", low)] * (low > value.type.low) + [("gt", high)] * (high < value.type.high)
+    if isinstance(value, n.Const) and low <= value.number <= high or not checks:
+        return value
+    value = context.atom(value)
+    conditions = [n.Op(name, value, n.Const(bound, value.type), ty.BOOL) for name, bound in checks]
+    outside = conditions[0] if len(conditions) == 1 else n.Op("or", conditions[0], conditions[1], ty.BOOL)
+    context.emit(n.Guard(outside, fault, context.site))
+    return value
+
+
+def _add(left: n.Expr, right: n.Expr) -> n.Expr:
+    if isinstance(left, n.Const) and isinstance(right, n.Const):
+        return n.Const(left.number + right.number, ty.DINT)
+    if isinstance(left, n.Const) and left.value == 0:
+        return right
+    if isinstance(right, n.Const) and right.value == 0:
+        return left
+    return n.Op("add", left, right, ty.DINT)
+
+
+def _multiply(left: n.Expr, factor: int) -> n.Expr:
+    if isinstance(left, n.Const):
+        return n.Const(left.number * factor, ty.DINT)
+    return left if factor == 1 else n.Op("mul", left, n.Const(factor, ty.DINT), ty.DINT)
