@@ -39,7 +39,10 @@ words = st.integers(LOW, HIGH)
         ("return a % b", INT, (-7, 3), 2),
         ("return a % b", INT, (7, -3), -2),
         ("return a % -3", INT, (7, 0), -2),
+        ("return a // b", INT, (LOW, -1), LOW),
+        ("return a // -1", INT, (LOW, 0), LOW),
         ("return a % b", INT, (LOW, -1), 0),
+        ("return a % -1", INT, (LOW, 0), 0),
         ("u = uint(a)\nreturn int(u + b)", INT, (HIGH, HIGH), -2),
         ("u = uint(a)\nreturn a + u", INT, (-1, 0), -2),
         ("u = uint(b)\nreturn a % u", INT, (-7, -3), -1),
@@ -74,7 +77,7 @@ def test_division_by_0(body: str) -> None:
         result(body, INT, 5, 0)
 
 
-@pytest.mark.parametrize(("a", "b"), [(LOW, 10), (LOW, -1), (HIGH, -2), (LOW + 8, 10)])
+@pytest.mark.parametrize(("a", "b"), [(LOW, 10), (HIGH, -2), (LOW + 8, 10)])
 def test_quotients_that_boards_get_wrong(a: int, b: int) -> None:
     with pytest.raises(ViperFault, match="division overflow"):
         result("return a // b", INT, a, b)
