@@ -73,7 +73,6 @@ CODES: dict[str, Code] = {
     "E0312": Code("argument of the wrong type", "type"),
     "E0313": Code("literal needs a type", "type"),
     "E0314": Code("in-out of another type", "type"),
-    "E0315": Code("address of another size", "type"),
     "E0401": Code("no such parameter", "call"),
     "E0402": Code("parameter is given twice", "call"),
     "E0403": Code("too many arguments", "call"),
