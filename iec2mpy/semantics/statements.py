@@ -29,7 +29,7 @@ from iec2mpy.semantics.types import BOOL, EnumType, base_type
 from iec2mpy.source.spans import Span
 from iec2mpy.syntax import tree
 
-_LEAVES = (tree.ReturnStmt, tree.ExitStmt, tree.ContinueStmt)
+_LEAVING = (Return, Exit, Continue)
 
 
 def check_body(scope: Scope, body: Sequence[tree.Stmt]) -> tuple[Stmt, ...]:
@@ -39,7 +39,7 @@ def check_body(scope: Scope, body: Sequence[tree.Stmt]) -> tuple[Stmt, ...]:
         result = _CHECKERS[type(statement)](scope, statement)
         if result is not None:
             checked.append(result)
-        if isinstance(statement, _LEAVES) and number + 1 < len(body):
+        if isinstance(result, _LEAVING) and number + 1 < len(body):
             scope.diagnostics.add(
                 "W0602",
                 f"This is never reached: {statement.span.text.rstrip(';').upper()} comes before it.",

@@ -1,0 +1,84 @@
+"""Figures 11 and 12: which conversions are implicit, and which types have one in common."""
+
+from __future__ import annotations
+
+import pytest
+
+from iec2mpy.semantics.conversions import common_type, conversion_name, converts_implicitly, same_type
+from iec2mpy.semantics.types import (
+    DINT,
+    ELEMENTARY,
+    INT,
+    REAL,
+    TIME,
+    AliasType,
+    ArrayType,
+    ElementaryType,
+    Kind,
+    StringType,
+    StructType,
+    SubrangeType,
+)
+
+IMPLICIT = {
+    "SINT": "INT DINT REAL",
+    "INT": "DINT REAL",
+    "USINT": "UINT INT UDINT DINT REAL",
+    "UINT": "UDINT DINT REAL",
+    "BOOL": "BYTE WORD DWORD",
+    "BYTE": "WORD DWORD",
+    "WORD": "DWORD",
+}
+
+
+@pytest.mark.parametrize("source", ELEMENTARY.values(), ids=str)
+def test_figure_12(source: ElementaryType) -> None:
+    reached = {t.name for t in ELEMENTARY.values() if converts_implicitly(source, t)}
+    assert reached == {source.name, *IMPLICIT.get(source.name, "").split()}
+
+
+def test_implicit_conversions_of_integers_keep_every_value() -> None:
+    whole = [t for t in ELEMENTARY.values() if t.kind is not Kind.REAL]
+    for source in whole:
+        for target in whole:
+            if converts_implicitly(source, target):
+                assert target.low <= source.low
+                assert source.high <= target.high
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "common"),
+    [
+        ("INT", "DINT", "DINT"),
+        ("USINT", "SINT", "INT"),
+        ("UINT", "INT", "DINT"),
+        ("INT", "REAL", "REAL"),
+        ("BYTE", "WORD", "WORD"),
+        ("DINT", "UDINT", None),
+        ("DINT", "REAL", None),
+        ("TIME", "INT", None),
+        ("BOOL", "INT", None),
+    ],
+)
+def test_common_type(a: str, b: str, common: str | None) -> None:
+    for left, right in ((a, b), (b, a)):
+        found = common_type(ELEMENTARY[left], ELEMENTARY[right])
+        assert (found.name if found else None) == common
+
+
+def test_sameness() -> None:
+    speed = AliasType("speed", INT, 5)
+    assert same_type(speed, INT)
+    assert same_type(ArrayType(speed, ((1, 3),)), ArrayType(INT, ((1, 3),)))
+    assert not same_type(ArrayType(INT, ((0, 2),)), ArrayType(INT, ((1, 3),)))
+    assert not same_type(SubrangeType("s", INT, 0, 5, 0), INT)
+    assert not same_type(StructType("a"), StructType("a"))
+    assert not same_type(StringType(5), StringType(6))
+
+
+def test_names_of_conversions() -> None:
+    assert conversion_name(REAL, SubrangeType("percent", INT, 0, 100, 0)) == "REAL_TO_INT"
+    assert conversion_name(StringType(10), INT) == "STRING_TO_INT"
+    assert conversion_name(TIME, DINT) == "TIME_TO_DINT"
+    assert conversion_name(REAL, ELEMENTARY["BYTE"]) is None
+    assert conversion_name(StructType("a"), INT) is None
