@@ -28,9 +28,10 @@ _SYNCHRONIZING = frozenset({
 
 _BRIDGES: tuple[tuple[str, ...], ...] = (
     (), ("ERROR",), ("ASSIGN", "ERROR"), ("SEMICOLON",), ("ERROR", "SEMICOLON"),
-    ("THEN",), ("ERROR", "THEN"), ("DO",), ("ERROR", "DO"), ("OF",), ("ERROR", "OF"), ("UNTIL", "ERROR"),
-    ("RANGE", "ERROR"), ("TO", "ERROR"), ("TO", "ERROR", "DO"), ("ASSIGN", "ERROR", "TO", "ERROR", "DO"), ("ERROR", "TO", "ERROR", "DO"),
-    ("COLON", "ERROR"), ("COLON", "ERROR", "SEMICOLON"),
+    ("THEN",), ("ERROR", "THEN"), ("DO",), ("ERROR", "DO"), ("OF",), ("ERROR", "OF"),
+    ("UNTIL", "ERROR"), ("RANGE", "ERROR"), ("TO", "ERROR"), ("TO", "ERROR", "DO"),
+    ("ASSIGN", "ERROR", "TO", "ERROR", "DO"), ("ERROR", "TO", "ERROR", "DO"),
+    ("COLON", "ERROR"), ("COLON", "ERROR", "SEMICOLON"), ("ON", "NAME"),
 )  # fmt: skip
 """What can be put between what was read and the token at which reading goes on, the likeliest first."""
 

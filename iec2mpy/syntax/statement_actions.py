@@ -20,11 +20,6 @@ class _CaseLabel:
 
 
 @action
-def body(values: list[Any], _diagnostics: Diagnostics) -> list[tree.Stmt]:
-    return values[0]
-
-
-@action
 def assignment(values: list[Any], _diagnostics: Diagnostics) -> tree.AssignStmt:
     target, _, value, _ = values
     return tree.AssignStmt(target, value, over(target, value))

@@ -57,27 +57,39 @@ def load() -> Tables:
 def build() -> dict[str, Any]:
     """Make the tables with Lark. A conflict in the grammar is an exception of Lark."""
     from lark import Lark
-    from lark.grammar import Rule as LarkRule
     from lark.parsers.lalr_analysis import Shift
 
     grammar = _GRAMMAR.read_text(encoding="utf-8")
     parser = Lark(grammar, parser="lalr", lexer="basic", start=list(START_RULES))
     table = parser.parser.parser._parse_table  # type: ignore[attr-defined]
-    numbers = {state: number for number, state in enumerate(table.states)}
-    rules: dict[LarkRule, int] = {}
+    numbers = _in_order(table.states, table.start_states)
+    rules = {rule: number for number, rule in enumerate(sorted(parser.rules, key=str))}
     states: list[dict[str, int]] = []
-    for actions in table.states.values():
-        row: dict[str, int] = {}
-        for symbol, (action, argument) in actions.items():
-            row[symbol] = numbers[argument] if action is Shift else -1 - rules.setdefault(argument, len(rules))
-        states.append(row)
+    for state in numbers:
+        actions = sorted(table.states[state].items(), key=_symbol)
+        states.append({str(symbol): numbers[to] if kind is Shift else -1 - rules[to] for symbol, (kind, to) in actions})
     return {
         "grammar": _digest(grammar),
-        "starts": {name: numbers[state] for name, state in table.start_states.items()},
-        "ends": {name: numbers[state] for name, state in table.end_states.items()},
-        "rules": [[rule.origin.name, len(rule.expansion), _action(rule)] for rule in rules],
+        "starts": {name: numbers[table.start_states[name]] for name in START_RULES},
+        "ends": {name: numbers[table.end_states[name]] for name in START_RULES},
+        "rules": [[str(rule.origin.name), len(rule.expansion), _action(rule)] for rule in rules],
         "states": states,
     }
+
+
+def _in_order(states: dict[Any, dict[str, tuple[Any, Any]]], starts: dict[str, Any]) -> dict[Any, int]:
+    """Lark's states with numbers that depend on the grammar only: Lark's own differ from one run to the next."""
+    numbers: dict[Any, int] = {}
+    waiting = [starts[name] for name in START_RULES]
+    for state in waiting:  # grows while it is read
+        if state not in numbers:
+            numbers[state] = len(numbers)
+            waiting += [target for _, (_, target) in sorted(states[state].items(), key=_symbol) if target in states]
+    return numbers
+
+
+def _symbol(entry: tuple[str, Any]) -> str:
+    return entry[0]
 
 
 def _action(rule: Any) -> str | None:
