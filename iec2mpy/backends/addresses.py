@@ -30,7 +30,11 @@ class Addresses:
         dynamic = [text for text in dynamic if text.code != "0"]
         if position or not dynamic:
             named = Text(self.names.name(path, position, self._comment(place))) if path else number(position)
-            dynamic = [*dynamic[:1], named, *dynamic[1:]] if dynamic[:1] and dynamic[0].code in ("b", "p") else [named, *dynamic]
+            dynamic = (
+                [*dynamic[:1], named, *dynamic[1:]]
+                if dynamic[:1] and dynamic[0].code in ("b", "p")
+                else [named, *dynamic]
+            )
         text = dynamic[0]
         for term in dynamic[1:]:
             text = infix(text, "+", term)
@@ -149,5 +153,3 @@ def _scaled(index: n.Expr, stride: int) -> tuple[int, list[tuple[n.Expr, int]]]:
             return _scaled(left, stride * factor.number)
         case _:
             return 0, [(index, stride)]
-
-

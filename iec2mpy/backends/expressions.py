@@ -177,20 +177,26 @@ class ExpressionWriter:
         a, b = self.value(left), self.value(right)
         if low >= 0 and divisor_low >= 0:
             return infix(a, "//" if name == "div" else "%", b)
-        below = _choice(self._next_to(right, -1), infix(a, "<", number(0)), number(0))
-        above = _choice(self._next_to(right, 1), infix(a, ">", number(0)), number(0))
         if divisor_low >= 0:
-            moved = below
+            moved = self._below(a, right)
         elif divisor_high <= 0:
-            moved = above
+            moved = self._above(a, right)
         else:
-            moved = _choice(below, infix(b, ">", number(0)), above)
+            moved = _choice(self._below(a, right), infix(b, ">", number(0)), self._above(a, right))
         quotient = infix(infix(a, "+", moved), "//", b)
         return quotient if name == "div" else infix(a, "-", infix(quotient, "*", b))
 
+    def _below(self, dividend: Text, divisor: n.Expr) -> Text:
+        """What is added to a dividend for a positive divisor."""
+        return _choice(self._next_to(divisor, -1), infix(dividend, "<", number(0)), number(0))
+
+    def _above(self, dividend: Text, divisor: n.Expr) -> Text:
+        """What is added to a dividend for a negative divisor."""
+        return _choice(self._next_to(divisor, 1), infix(dividend, ">", number(0)), number(0))
+
     def _next_to(self, value: n.Expr, by: int) -> Text:
         if isinstance(value, n.Const):
-            return number(value.number + by)
+            return self._constant(value.number + by, value.type)
         return infix(self.value(value), "+", number(by))
 
     def _complement(self, operand: n.Expr, value_type: n.ValueType) -> Text:
@@ -207,7 +213,7 @@ class ExpressionWriter:
         value = call("float", forms.unsigned(self.target, self.value(operand), operand.type))
         low, high = bounds(operand)
         # integers of up to 24 bits are exact in single precision
-        return value if -(1 << 24) <= low and high <= 1 << 24 else self._rounded(value)
+        return value if low >= -(1 << 24) and high <= 1 << 24 else self._rounded(value)
 
     def _intrinsic(self, name: str, arguments: tuple[n.Expr, ...], value_type: n.ValueType) -> Text:
         runtime = INTRINSICS[name]
@@ -277,5 +283,7 @@ def quoted(text: str) -> str:
             characters.append(character)
         else:
             code = ord(character)
-            characters.append(f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}")
+            characters.append(
+                f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
+            )
     return '"' + "".join(characters) + '"'

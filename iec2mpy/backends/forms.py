@@ -1,8 +1,8 @@
 """How an operation is written, in each form and for each width of a machine word.
 
-Texts are Python; a number with each says how tightly it binds, so that brackets stand only where they are needed. An
-integer text is a machine word: in the portable form any Python integer, in viper 64 or 32 bits. Where a word has 32 bits,
-UDINT and DWORD are held as their signed pattern; elsewhere as their value.
+Texts are Python; a number with each says how tightly it binds, so that brackets stand only where they are needed.
+An integer text is a machine word: in the portable form any Python integer, in viper 64 or 32 bits. Where a word has 32
+bits, UDINT and DWORD are held as their signed pattern; elsewhere as their value.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ _OPERATORS = {
     ">=": Binding.COMPARE,
 }
 _BITWISE = frozenset({"&", "|", "^", "<<", ">>"})
-_CHAINS = frozenset({"+", "*", "&", "|", "^", "and", "or"})
+_CHAINS = frozenset({"&", "|", "^", "and", "or"})
 
 
 def infix(left: Text, operator: str, right: Text) -> Text:

@@ -57,8 +57,11 @@ class Record:
 
 @dataclass(slots=True)
 class Layout:
-    """The positions of everything. `located` by address: all variables at one address are one storage. `instances` by the number of the program; a constant too large for the code of a
-    32-bit viper has a slot of its own (`constants`)."""
+    """The positions of everything.
+
+    `located` by address: all variables at one address are one storage. `instances` by the number of the program. A
+    constant too large for the code of a 32-bit viper has a slot of its own (`constants`).
+    """
 
     module: n.Module
     globals: dict[Variable, Size] = field(default_factory=dict)
@@ -159,7 +162,10 @@ class Layout:
         for variable, at in (*self.globals.items(), *self.located.values()):
             yield variable.type, variable.initial, at
         records = [
-            *((self.instance_record(run.pou), base) for run, base in zip(self.module.programs, self.instances, strict=True)),
+            *(
+                (self.instance_record(run.pou), base)
+                for run, base in zip(self.module.programs, self.instances, strict=True)
+            ),
             *((self.frame_record(pou), base) for pou, base in self.frames.items()),
         ]
         for record, base in records:

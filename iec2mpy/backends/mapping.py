@@ -58,7 +58,7 @@ def _leaves(
     for leaf in _type_leaves(layout, variable.type, path, at, {"V": (), "O": ()}, enums):
         yield replace(
             leaf,
-            address=variable.address if leaf.path == path else None,
+            address=variable.address,
             constant=variable.constant,
             file=variable.span.file.path,
             line=variable.span.line,

@@ -106,7 +106,8 @@ class MemoryMap:
         self._tree: dict[str, object] = {}
         for variable in self.variables:
             self._plant(variable)
-        self._by_address = {v.address.upper(): v for v in self.variables if v.address}
+        # an array or structure at an address begins there
+        self._by_address = {v.address.upper(): v for v in reversed(self.variables) if v.address}
 
     def _plant(self, variable: MappedVariable) -> None:
         """Adds a leaf to the tree of names: a step is a case-folded name, or "[]" with its dimensions."""
@@ -236,7 +237,7 @@ class MemoryMap:
         return decode(leaf.variable.kind, raw, self.enums.get(leaf.variable.type, {}))
 
     def write(self, node: Node, value: object) -> list[Written]:
-        """The raw values that give the node a value; of a structure, only the fields that are named. Raises BadValue."""
+        """The raw values that give the node a value; of a structure, only the fields named. Raises BadValue."""
         if isinstance(node, Leaf):
             variable = node.variable
             try:

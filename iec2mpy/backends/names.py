@@ -9,7 +9,21 @@ from iec2mpy.semantics.typed import Pou
 
 _TAKEN = frozenset(
     {"V", "O", "TASKS", "UNTIMED", "RETAIN", "INPUTS", "OUTPUTS", "HASH", "reset", "v", "o", "b", "p", "const", "array"}
-    | {"micropython", "abs", "len", "float", "int", "uint", "ptr32", "bool", "object", "range", "fill", "put", "loop_check"}
+    | {
+        "micropython",
+        "abs",
+        "len",
+        "float",
+        "int",
+        "uint",
+        "ptr32",
+        "bool",
+        "object",
+        "range",
+        "fill",
+        "put",
+        "loop_check",
+    }
 )
 
 

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from iec2mpy.ir import nodes as n
-from iec2mpy.ir.walk import expressions, statements
+from iec2mpy.ir.walk import expressions, set_local, statements
 
 MAX_STATEMENTS = 250
 
 
 def split(body: n.Body) -> list[n.Block]:
-    """The body's block, or several that do the same one after the other. Cuts stand between statements of the body itself,
-    where no local is in use; a body that may return early stays whole."""
+    """The body's block, or several that do the same one after the other.
+
+    Cuts stand between statements of the body itself, where no local is in use; one that may return early stays whole.
+    """
     if _count(body.block) <= MAX_STATEMENTS or any(isinstance(s, n.Return) for s in statements(body.block)):
         return [body.block]
     last_use = _last_uses(body.block)
@@ -37,8 +39,8 @@ def _locals(statement: n.Stmt) -> set[int]:
     """The locals that a statement, or what is inside of it, sets or reads."""
     found: set[int] = set()
     for inner in statements((statement,)):
-        if isinstance(inner, n.SetLocal):
-            found.add(inner.local.number)
+        if (local := set_local(inner)) is not None:
+            found.add(local.number)
         found |= {e.number for e in expressions(inner) if isinstance(e, n.Local)}
     return found
 

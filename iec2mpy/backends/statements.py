@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from iec2mpy.backends import forms
@@ -60,6 +61,8 @@ class StatementWriter:
                 self._set_local(local, value)
             case n.Copy(target, source):
                 self._copy(target, source)
+            case n.Compare(local, left, right):
+                self._compare(local, left, right)
             case n.Bind(reference, target):
                 addresses = self.expressions.addresses
                 self._write(f"v[{addresses.subscript(reference, 'V').code}] = {addresses.reference(target).code}")
@@ -114,8 +117,8 @@ class StatementWriter:
     def _unsigned_division(self, name: str, value: n.Op) -> None:
         """32-bit unsigned division, of patterns, with signed machine words (viper has no `//` of `uint`).
 
-        A divisor from 2^31 on goes into the dividend once or not at all. By a smaller one, half of the dividend is divided:
-        twice that quotient is right or one too small.
+        A divisor from 2^31 on goes into the dividend once or not at all. By a smaller one, half of the dividend is
+        divided: twice that quotient is right or one too small.
         """
         a, b = (self.expressions.value(operand) for operand in (value.left, value.right))
         quotient, rest = self._temporary(), self._temporary()
@@ -139,26 +142,42 @@ class StatementWriter:
     # ------------------------------------------------------------------------------ arrays, structures
 
     def _copy(self, target: n.Place, source: n.Place) -> None:
-        size = self.expressions.layout.size_of(target.type)
-        for array, name in (("V", "v"), ("O", "o")):
-            count = size.of(array)
-            if not count:
-                continue
-            self.expressions.uses_objects |= array == "O"
-            to = self.expressions.addresses.subscript(target, array)
-            from_ = self.expressions.addresses.subscript(source, array)
+        for name, to, from_, count in self._paired(target, source):
             if count <= _UNROLLED:
                 for position in range(count):
                     to_slot, from_slot = (_moved(text, position).code for text in (to, from_))
                     self._write(f"{name}[{to_slot}] = {name}[{from_slot}]")
-                continue
-            first, second, left = self._temporary(), self._temporary(), self._temporary()
-            self._write(f"{first} = {to.code}")
-            self._write(f"{second} = {from_.code}")
-            self._write(f"{left} = {count}")
-            self._write(f"while {left} > 0:")
-            self._write(f"    {left} -= 1")
-            self._write(f"    {name}[{first} + {left}] = {name}[{second} + {left}]")
+            else:
+                first, second, left = self._countdown(to, from_, count)
+                self._write(f"    {name}[{first} + {left}] = {name}[{second} + {left}]")
+
+    def _compare(self, local: n.Local, left: n.Place, right: n.Place) -> None:
+        result = self.expressions.value(local).code
+        self._write(f"{result} = 1")
+        for name, one, other, count in self._paired(left, right):
+            first, second, remaining = self._countdown(one, other, count)
+            self._write(f"    if {name}[{first} + {remaining}] != {name}[{second} + {remaining}]:")
+            self._write(f"        {result} = 0")
+            self._write("        break")
+
+    def _paired(self, one: n.Place, other: n.Place) -> Iterator[tuple[str, Text, Text, int]]:
+        """For each array that has a part of the two: its name in the function, where they begin, how many slots."""
+        size = self.expressions.layout.size_of(one.type)
+        for array, name in (("V", "v"), ("O", "o")):
+            if size.of(array):
+                self.expressions.uses_objects |= array == "O"
+                first, second = (self.expressions.addresses.subscript(place, array) for place in (one, other))
+                yield name, first, second, size.of(array)
+
+    def _countdown(self, one: Text, other: Text, count: int) -> tuple[str, str, str]:
+        """The head of a loop over pairs of slots, from the last one: names of the two bases and of what is added."""
+        first, second, left = self._temporary(), self._temporary(), self._temporary()
+        self._write(f"{first} = {one.code}")
+        self._write(f"{second} = {other.code}")
+        self._write(f"{left} = {count}")
+        self._write(f"while {left} > 0:")
+        self._write(f"    {left} -= 1")
+        return first, second, left
 
     def _reset(self, place: n.Place, value: object) -> None:
         for array in ("V", "O"):
@@ -168,7 +187,9 @@ class StatementWriter:
             start = self.expressions.addresses.subscript(place, array).code
             if len(set(map(repr, values))) == 1:
                 fill = self.expressions.need("memory", "fill")
-                self._write(f"{fill}({array}, {start}, {len(values)}, {literal(values[0], self.expressions.target.single)})")
+                self._write(
+                    f"{fill}({array}, {start}, {len(values)}, {literal(values[0], self.expressions.target.single)})"
+                )
             else:
                 put = self.expressions.need("memory", "put")
                 self._write(f"{put}({array}, {start}, {literals(values, self.expressions.target.single)})")

@@ -1,4 +1,4 @@
-"""Bounds of integer expressions: what a value can be, from declared types and from what is written in the expression."""
+"""Bounds of integer expressions: what a value can be, from declared types and from the expression itself."""
 
 from __future__ import annotations
 
@@ -12,6 +12,10 @@ Known = Callable[[n.Expr], Bounds | None]
 """What is known of a variable or local at a point of the program, beyond its type."""
 
 
+_WIDEST = 64
+"""No shift is wider than a type, whatever its count may be."""
+
+
 def nothing_known(_expr: n.Expr) -> Bounds | None:
     return None
 
@@ -20,9 +24,9 @@ def bounds(expr: n.Expr, known: Known = nothing_known) -> Bounds:
     """Lowest and highest value of an expression that is stored as an integer."""
     found = _bounds(expr, known)
     limits = _type_bounds(expr.type)
-    if isinstance(expr, n.Op) and expr.name in ("add", "sub", "mul", "div"):
+    if isinstance(expr, n.Op) and expr.name in ("add", "sub", "mul", "div", "shl"):
         # these leave their type, until they are wrapped; of the quotients only the lowest number by -1
-        return found or limits
+        return found or (-(1 << _WIDEST), 1 << _WIDEST)
     if found is None:
         return limits
     # what is known cannot make a value leave its type
@@ -110,6 +114,10 @@ def _or(a: Bounds, b: Bounds) -> Bounds | None:
     return None
 
 
+def _shl(a: Bounds, b: Bounds) -> Bounds | None:
+    return (0, a[1] << min(b[1], _WIDEST)) if a[0] >= 0 and b[0] >= 0 else None
+
+
 def _shr(a: Bounds, b: Bounds) -> Bounds | None:
     return (0, a[1] >> b[0]) if a[0] >= 0 and b[0] >= 0 else None
 
@@ -123,5 +131,6 @@ _OPERATIONS: dict[str, Callable[[Bounds, Bounds], Bounds | None]] = {
     "and": _and,
     "or": _or,
     "xor": _or,
+    "shl": _shl,
     "shr": _shr,
 }

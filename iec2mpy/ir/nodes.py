@@ -216,6 +216,15 @@ class Copy:
 
 
 @dataclass(frozen=True, slots=True)
+class Compare:
+    """Sets a BOOL local: whether two whole arrays or structures of one type are equal."""
+
+    local: Local
+    left: Place
+    right: Place
+
+
+@dataclass(frozen=True, slots=True)
 class Bind:
     """Makes an in-out stand for a place."""
 
@@ -293,7 +302,22 @@ class Return:
 
 
 Stmt = (
-    Line | Store | SetLocal | Copy | Bind | Reset | Call | Guard | Mark | Tick | If | While | Break | Next | Return
+    Line
+    | Store
+    | SetLocal
+    | Copy
+    | Compare
+    | Bind
+    | Reset
+    | Call
+    | Guard
+    | Mark
+    | Tick
+    | If
+    | While
+    | Break
+    | Next
+    | Return
 )
 Block = tuple[Stmt, ...]
 

@@ -33,6 +33,8 @@ def _statement(statement: n.Stmt, indent: str) -> Iterator[str]:
             yield f"{indent}{_expr(local)} := {_expr(value)}"
         case n.Copy(target, source):
             yield f"{indent}copy {_place(target)} := {_place(source)}"
+        case n.Compare(local, left, right):
+            yield f"{indent}{_expr(local)} := compare {_place(left)} = {_place(right)}"
         case n.Bind(reference, target):
             yield f"{indent}bind {_place(reference)} => {_place(target)}"
         case n.Reset(place):

@@ -68,7 +68,7 @@ def _locals(block: n.Block, known: set[int], count: int) -> Iterator[str]:
             if isinstance(expr, n.Local) and expr.number not in known:
                 yield f"local {expr.number} is read before it is set"
         match statement:
-            case n.SetLocal(local):
+            case n.SetLocal(local) | n.Compare(local):
                 known.add(local.number)
                 if local.number >= count:
                     yield f"local {local.number} is beyond the {count} of the body"

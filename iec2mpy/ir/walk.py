@@ -55,6 +55,8 @@ def map_statement_exprs(statement: n.Stmt, rewrite: Rewrite) -> n.Stmt:
             return n.SetLocal(local, map_expr(value, rewrite))
         case n.Copy(target, source):
             return n.Copy(map_place(target, rewrite), map_place(source, rewrite))
+        case n.Compare(local, left, right):
+            return n.Compare(local, map_place(left, rewrite), map_place(right, rewrite))
         case n.Bind(reference, target):
             return n.Bind(map_place(reference, rewrite), map_place(target, rewrite))
         case n.Call(pou, instance) if instance is not None:
@@ -70,7 +72,7 @@ def map_statement_exprs(statement: n.Stmt, rewrite: Rewrite) -> n.Stmt:
 
 
 def map_statement_places(statement: n.Stmt, rewrite: Callable[[n.Place], n.Place]) -> n.Stmt:
-    """The statement with every place in it rewritten, those in its expressions too; inner blocks are left as they are."""
+    """The statement with every place in it rewritten, those in its expressions too; inner blocks are left alone."""
 
     def through(place: n.Place) -> n.Place:
         if isinstance(place.root, n.Deref):
@@ -86,6 +88,8 @@ def map_statement_places(statement: n.Stmt, rewrite: Callable[[n.Place], n.Place
             return n.Store(through(place), value)
         case n.Copy(target, source):
             return n.Copy(through(target), through(source))
+        case n.Compare(local, left, right):
+            return n.Compare(local, through(left), through(right))
         case n.Bind(reference, target):
             return n.Bind(through(reference), through(target))
         case n.Reset(place, value):
@@ -130,6 +134,11 @@ def statements(block: n.Block) -> Iterator[n.Stmt]:
                 pass
 
 
+def set_local(statement: n.Stmt) -> n.Local | None:
+    """The local that a statement sets."""
+    return statement.local if isinstance(statement, (n.SetLocal, n.Compare)) else None
+
+
 def places(statement: n.Stmt) -> Iterator[n.Place]:
     """The places that a statement itself names (those in its expressions are in `expressions`)."""
     match statement:
@@ -138,6 +147,9 @@ def places(statement: n.Stmt) -> Iterator[n.Place]:
         case n.Copy(target, source):
             yield target
             yield source
+        case n.Compare(_, left, right):
+            yield left
+            yield right
         case n.Bind(reference, target):
             yield reference
             yield target

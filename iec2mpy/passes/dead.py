@@ -7,20 +7,21 @@ from dataclasses import replace
 
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.intrinsics import INTRINSICS
-from iec2mpy.ir.walk import expressions, map_block, parts, statements
+from iec2mpy.ir.walk import expressions, map_block, parts, set_local, statements
 
 
 def remove_dead(body: n.Body) -> n.Body:
     """The body without what has no effect. A value that may fault counts as an effect."""
     block = _cut(map_block(body.block, _reduce))
-    while True:
-        reads = Counter(
-            e.number for s in statements(block) for e in expressions(s) if isinstance(e, n.Local)
-        )
-        smaller = map_block(block, lambda s: () if _is_unread(s, reads) else (s,))
-        if smaller == block:
-            return replace(body, block=block)
+    while (smaller := _without_unread(block)) != block:
         block = smaller
+    return replace(body, block=block)
+
+
+def _without_unread(block: n.Block) -> n.Block:
+    """The block without locals that nothing reads; the next time, those that only they have read are unread too."""
+    reads = Counter(e.number for s in statements(block) for e in expressions(s) if isinstance(e, n.Local))
+    return map_block(block, lambda s: () if _is_unread(s, reads) else (s,))
 
 
 def _reduce(statement: n.Stmt) -> n.Block:
@@ -51,7 +52,10 @@ def _cut(block: n.Block) -> n.Block:
 
 
 def _is_unread(statement: n.Stmt, reads: Counter[int]) -> bool:
-    return isinstance(statement, n.SetLocal) and not reads[statement.local.number] and not _may_fault(statement.value)
+    local = set_local(statement)
+    if local is None or reads[local.number]:
+        return False
+    return not (isinstance(statement, n.SetLocal) and _may_fault(statement.value))
 
 
 def _may_fault(expr: n.Expr) -> bool:

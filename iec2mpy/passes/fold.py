@@ -26,7 +26,7 @@ def _fold(expr: n.Expr) -> n.Expr:
             return n.Const(arithmetic.to_single(float(operand.number)), to)
         case n.Not(n.Const() as operand, ty.ElementaryType() as to):
             return n.Const(arithmetic.wrap(~operand.number, to), to)
-        case n.Not(n.Not(operand)):
+        case n.Not(n.Not(operand, inner), outer) if inner == outer:
             return operand
         case n.Select(n.Const() as condition, then, otherwise):
             return then if condition.value else otherwise
@@ -41,7 +41,11 @@ def _fold(expr: n.Expr) -> n.Expr:
 def _operation(expr: n.Op, left: n.Const, right: n.Const) -> n.Expr:
     """Exact for integers, as `Wrap` is a node of its own; the meaning of all else is `arithmetic`'s."""
     if expr.name in n.ARITHMETIC and expr.type is not ty.REAL:
-        exact = {"add": left.number + right.number, "sub": left.number - right.number, "mul": left.number * right.number}
+        exact = {
+            "add": left.number + right.number,
+            "sub": left.number - right.number,
+            "mul": left.number * right.number,
+        }
         return n.Const(exact[expr.name], expr.type)
     try:
         value = arithmetic.binary(_OPERATORS[expr.name], left.value, right.value, left.type, right.type)
@@ -57,13 +61,13 @@ def _identity(expr: n.Op, name: str, left: n.Expr, right: n.Expr) -> n.Expr:
         return expr
     if isinstance(left, n.Const) and name in ("add", "mul", "and", "or", "xor"):
         left, right = right, left
-    if not isinstance(right, n.Const):
+    if not isinstance(right, n.Const) or isinstance(left.type, ty.StringType):
         return expr
-    value, ones = right.value, left.type.high
-    if value == 0 and name in ("add", "sub", "or", "xor", "shl", "shr") or value == 1 and name in ("mul", "div"):
+    value = right.number
+    if (value == 0 and name in ("add", "sub", "or", "xor", "shl", "shr")) or (value == 1 and name in ("mul", "div")):
         return left
     if value == 0 and name in ("and", "mul"):
         return n.Const(0, expr.type)
-    if value == ones and name == "and":
+    if value == left.type.high and name == "and":
         return left
     return expr

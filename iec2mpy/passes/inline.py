@@ -1,6 +1,7 @@
 """Inlining: a small body stands in place of its call.
 
-On an RP2040 a timer costs 660 cycles as a shared function, and 43 in place. Larger bodies stay functions: code is scarce too.
+On an RP2040 a timer costs 660 cycles as a shared function, and 43 in place. Larger bodies stay functions: code is
+scarce too.
 """
 
 from __future__ import annotations
@@ -82,8 +83,8 @@ def _placed(block: n.Block, call: n.Call, first_local: int) -> n.Block:
 
     def statement(old: n.Stmt) -> n.Block:
         new = map_statement_exprs(map_statement_places(old, place), local)
-        if isinstance(new, n.SetLocal):
-            new = n.SetLocal(replace(new.local, number=new.local.number + first_local), new.value)
+        if isinstance(new, (n.SetLocal, n.Compare)):
+            new = replace(new, local=replace(new.local, number=new.local.number + first_local))
         return (new,)
 
     return map_block(block, statement)

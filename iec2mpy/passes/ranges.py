@@ -79,6 +79,8 @@ def _statement(statement: n.Stmt, facts: _Facts) -> n.Stmt:
         case n.SetLocal(local, value):
             if _is_integer(value):
                 facts.locals[local.number] = bounds(value, facts.of)
+        case n.Compare(local):
+            facts.locals.pop(local.number, None)
         case n.Store(place, value):
             _forget(place, facts)
             if _is_integer(value) and _is_plain(place):
@@ -120,7 +122,7 @@ def _forget_what_changes(body: n.Block, facts: _Facts) -> None:
     """What a loop changes is unknown at the start of a pass, and after the loop."""
     for statement in statements(body):
         match statement:
-            case n.SetLocal(local):
+            case n.SetLocal(local) | n.Compare(local):
                 facts.locals.pop(local.number, None)
             case n.Store(place) | n.Copy(place) | n.Reset(place):
                 _forget(place, facts)
@@ -139,9 +141,11 @@ def _forget(place: n.Place, facts: _Facts) -> None:
 
 
 def _is_plain(place: n.Place) -> bool:
-    """A variable or field that no other place can be: its own storage, found without a subscript. Located variables share
-    theirs with others at the same address."""
-    if isinstance(place.root, n.Deref) or isinstance(place.root, n.Global) and place.root.variable.address is not None:
+    """A variable or field that no other place can be: its own storage, found without a subscript. Located variables
+    share theirs with others at the same address."""
+    if isinstance(place.root, n.Deref) or (
+        isinstance(place.root, n.Global) and place.root.variable.address is not None
+    ):
         return False
     return all(isinstance(step, n.Field) for step in place.steps)
 
@@ -224,7 +228,7 @@ def _wrap(operand: n.Expr, to: ty.ElementaryType, facts: _Facts) -> n.Expr:
 
 def _retyped(expr: n.Expr, to: ty.ElementaryType) -> n.Expr:
     """The same value as one of another type, which has it too: the sum of two DINT may be a UDINT's."""
-    if isinstance(expr, n.Const) or isinstance(expr, n.Op) and expr.name in n.ARITHMETIC:
+    if isinstance(expr, n.Const) or (isinstance(expr, n.Op) and expr.name in n.ARITHMETIC):
         return replace(expr, type=to)
     return expr
 
@@ -261,4 +265,3 @@ def _decided(expr: n.Op, name: str, left: Bounds, right: Bounds) -> n.Expr:
     if always[name]:
         return n.Const(1, ty.BOOL)
     return n.Const(0, ty.BOOL) if never[name] else expr
-

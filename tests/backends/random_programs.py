@@ -34,9 +34,7 @@ def values(draw: st.DrawFn, of: ElementaryType) -> int:
 @st.composite
 def environments(draw: st.DrawFn) -> dict[str, int]:
     """Values for the variables: `int0`, `int1`, `byte0`, …"""
-    return {
-        f"{of.name.lower()}{number}": draw(values(of)) for of in NUMBERED for number in range(VARIABLES_A_TYPE)
-    }
+    return {f"{of.name.lower()}{number}": draw(values(of)) for of in NUMBERED for number in range(VARIABLES_A_TYPE)}
 
 
 @st.composite

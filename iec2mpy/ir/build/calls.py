@@ -72,7 +72,9 @@ def _pass_arguments(context: Context, arguments: Sequence[t.ActualParameter], ca
     stored: set[t.Variable] = set()
     for position, argument in enumerate(inputs):
         if stored and reads(values[position], stored):
-            values[position:] = [v if isinstance(v, (n.Const, n.Local)) else context.spill(v) for v in values[position:]]
+            values[position:] = [
+                v if isinstance(v, (n.Const, n.Local)) else context.spill(v) for v in values[position:]
+            ]
             break
         stored.add(argument.parameter)
     for argument, value in zip(inputs, values, strict=True):
@@ -90,5 +92,3 @@ def _take_outputs(context: Context, arguments: Sequence[t.ActualParameter]) -> N
     for argument in arguments:
         if isinstance(argument, t.OutputArgument):
             expressions.assign_expr(context, argument.target, argument.value)
-
-

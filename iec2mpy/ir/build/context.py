@@ -79,8 +79,10 @@ class Context:
 
     @contextmanager
     def bound(self, control: t.Expr, current: n.Local) -> Iterator[None]:
-        """Inside a FOR, its control variable has the value of a local, whose bounds are known. Nothing in the body may write
-        it; a global one might be written by a body that is called, and is read from its slot."""
+        """Inside a FOR, its control variable has the value of a local, whose bounds are known.
+
+        Nothing in the body may write it; a global one might be written by a body that is called, and is read from its
+        slot."""
         if not isinstance(control, t.VariableRef) or control.variable.owner is None:
             yield
             return

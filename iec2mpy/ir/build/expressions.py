@@ -30,6 +30,8 @@ def lower_expr(context: Context, expr: t.Expr) -> n.Expr:
             return convert(context, lower_expr(context, operand), stored_type(expr.type), expr.truncate)
         case t.Unary(operator, operand):
             return _unary(operator, lower_expr(context, operand))
+        case t.Binary(operator, left, right) if ty.value_type(left.type) is None:
+            return _compared(context, operator, left, right)
         case t.Binary(operator, left, right):
             left_value, right_value = lower_all(context, (left, right))
             return _binary(context, operator, left_value, right_value, stored_type(expr.type))
@@ -79,6 +81,16 @@ def stored_type(declared: ty.Type | None) -> n.ValueType:
     stored = ty.value_type(declared)
     assert stored is not None, f"{declared} is no single value"
     return stored
+
+
+def _compared(context: Context, operator: str, left: t.Expr, right: t.Expr) -> n.Expr:
+    """`=` and `<>` of whole arrays and structures (7.3.3.2)."""
+    left_place = lower_aggregate(context, left)
+    mark = context.mark()
+    right_place = lower_aggregate(context, right)
+    equal = context.new_local(ty.BOOL, 0, 1)
+    context.emit(n.Compare(equal, context.settle_place(mark, left_place), right_place))
+    return equal if operator == "=" else n.Not(equal, ty.BOOL)
 
 
 def _unary(operator: str, operand: n.Expr) -> n.Expr:
@@ -138,11 +150,9 @@ def _checked_divisor(context: Context, divisor: n.Expr) -> n.Expr:
     return divisor
 
 
-def _integer_division(
-    context: Context, name: str, left: n.Expr, right: n.Expr, result: n.ValueType
-) -> n.Expr:
-    """The operands are written several times where a backend has to mend the sign, so they are atoms. Unsigned ones of 32
-    bits take several statements on a 32-bit machine, so their result is a local of its own."""
+def _integer_division(context: Context, name: str, left: n.Expr, right: n.Expr, result: n.ValueType) -> n.Expr:
+    """The operands are written several times where a backend has to mend the sign, so they are atoms. Unsigned ones of
+    32 bits take several statements on a 32-bit machine, so their result is a local of its own."""
     value = n.Op(name, context.atom(left), right, result)
     return context.spill(value) if result in (ty.UDINT, ty.DWORD) else value
 

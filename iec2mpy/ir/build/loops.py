@@ -100,8 +100,8 @@ def _for_any_step(
     step: n.Expr,
     lower_block: LowerBlock,
 ) -> None:
-    """The step's sign is known only at run time. What is left to go is compared with the step, without a sign: so no test
-    can overflow."""
+    """The step's sign is known only at run time. What is left to go is compared with the step, without a sign: so no
+    test can overflow."""
     value_type = start.type
     next_value, go_on = context.new_local(value_type), context.new_local(ty.BOOL, 0, 1)
     upwards = context.spill(n.Op("ge", step, n.Const(0, value_type), ty.BOOL))
@@ -120,7 +120,7 @@ def _for_any_step(
 
 
 def _room(value: n.Expr, end: n.Expr, step: n.Expr, upwards: bool) -> n.Expr:
-    """Whether another step stays inside, of a value that is: the way left, as an unsigned number, is at least a step."""
+    """Whether another step stays inside: the way left, as an unsigned number, is at least a step."""
     left, right = (end, value) if upwards else (value, end)
     way = n.Wrap(n.Op("sub", left, right, ty.DINT), ty.UDINT)
     if isinstance(step, n.Const):

@@ -80,7 +80,7 @@ def check_range(context: Context, value: n.Expr, low: int, high: int, fault: str
     """The value, which was checked to be inside the bounds; as an atom, if a check was needed."""
     assert isinstance(value.type, ty.ElementaryType)
     checks = [("lt", low)] * (low > value.type.low) + [("gt", high)] * (high < value.type.high)
-    if isinstance(value, n.Const) and low <= value.number <= high or not checks:
+    if (isinstance(value, n.Const) and low <= value.number <= high) or not checks:
         return value
     value = context.atom(value)
     conditions = [n.Op(name, value, n.Const(bound, value.type), ty.BOOL) for name, bound in checks]
