@@ -89,15 +89,20 @@ def report_overlaps(world: GlobalScope) -> None:
         end, last = -1, None
         for start, stop, variable in group:
             if last is not None and start < end and variable.address != last.address:
-                world.diagnostics.add(
-                    "E0917",
-                    f"{variable.address} and {last.address} share storage: this is not supported yet.",
-                    variable.span,
-                    None,
-                    [Related(last.span, f"{last.address} is here.")],
-                )
+                _report_overlap(world, variable, last)
             if stop > end:
                 end, last = stop, variable
+
+
+def _report_overlap(world: GlobalScope, a: Variable, b: Variable) -> None:
+    first, second = sorted((a, b), key=lambda v: (v.span.file.path, v.span.start))
+    world.diagnostics.add(
+        "E0917",
+        f"{second.address} and {first.address} share storage: this is not supported yet.",
+        second.span,
+        None,
+        [Related(first.span, f"{first.address} is here.")],
+    )
 
 
 def _extent(variable: Variable) -> tuple[str, int, int] | None:

@@ -43,7 +43,7 @@ def global_variable(world: GlobalScope, key: str) -> Variable | None:
     scope = Scope(world, is_stdlib=declared.name.span.file.is_stdlib)
     if key in world.active:
         world.diagnostics.add("E0705", f"The value of `{declared.name.text}` depends on itself.", declared.name.span)
-        return None
+        return Variable(declared.name.text, UNKNOWN, Section.GLOBAL, declared.name.span, 0)
     world.active.add(key)
     _check_qualifiers(scope, declared.section)
     t = resolve_type(scope, declared.declaration.type)

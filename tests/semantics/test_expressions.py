@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from tests.semantics.checking import body_of, check_text, codes, codes_of, program, value_of
 
 from iec2mpy.semantics.typed import Binary, Constant, Convert, DirectRef, ElementRef, FieldRef, Unary, VariableRef
 from iec2mpy.semantics.types import BOOL, DINT, DWORD, INT, REAL, TIME, WORD, StringType, SubrangeType
+from tests.semantics.checking import body_of, check_text, codes, codes_of, program, value_of
 
 
 @pytest.mark.parametrize(
