@@ -31,7 +31,7 @@ demo: $(VENV)/installed
 	    --watch main.level --trace $(DEMO)/tank.csv --plot $(DEMO)/tank.svg
 
 test: $(VENV)/installed-dev
-	$(BIN)/python -m pytest -n auto
+	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/python -m pytest -n auto
 
 lint: $(VENV)/installed-dev
 	$(BIN)/ruff check .

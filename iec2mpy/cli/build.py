@@ -50,8 +50,8 @@ def command(directory: Path, board: str | None, emitter: str | None) -> None:
     show_diagnostics(build.warnings)
     folder = project.root / BUILD_FOLDER
     write_build(build, folder)
-    target = build.program.target
-    click.echo(f"{project.name} for {project.board.title} ({project.board.chip.title}), {target.form} code, in {folder}:")
+    board_title = f"{project.board.title} ({project.board.chip.title})"
+    click.echo(f"{project.name} for {board_title}, {build.program.target.form} code, in {folder}:")
     for name, content in build.files.items():
         mark = "*" if name in build.on_board else " "
         click.echo(f"{mark} {name:17}{len(content):>8,} bytes  {_PURPOSES[name]}")

@@ -160,8 +160,10 @@ def _show_last(
         groups: dict[str, dict[str, object]] = {"inputs": {}, "outputs": {}, "watched": {}}
         for variable, value in zip(watched, last, strict=True):
             groups[variable.group][variable.path] = value
-        stopped = None if fault is None else dataclasses.asdict(fault)
-        click.echo(json.dumps({"name": name, "scans": count, **groups, "fault": stopped}, indent=1))
+        done: dict[str, object] = {"scans": count, "fault": None}
+        if fault is not None:
+            done = {"scans": None, "fault": dataclasses.asdict(fault)}
+        click.echo(json.dumps({"name": name, **groups, **done}, indent=1))
         return
     from rich.console import Console
 
