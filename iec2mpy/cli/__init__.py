@@ -60,8 +60,21 @@ def _set_debug(_context: click.Context, _option: click.Parameter, debug: bool) -
         os.environ[_DEBUG] = "1"
 
 
+def _show_version(context: click.Context, _option: click.Parameter, wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            click.echo(f"iec2mpy {version('iec2mpy')}")
+        except PackageNotFoundError:
+            click.echo("iec2mpy, from a checkout that is not installed")
+        context.exit()
+
+
 @click.group(cls=_LazyGroup, help=_HELP, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(package_name="iec2mpy", prog_name="iec2mpy", message="%(prog)s %(version)s")
+@click.option(
+    "--version", is_flag=True, is_eager=True, expose_value=False, callback=_show_version, help="Show the version."
+)
 @click.option(
     "--debug",
     is_flag=True,
