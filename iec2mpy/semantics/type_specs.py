@@ -9,6 +9,7 @@ from iec2mpy.semantics.conversions import INTEGER_KINDS, type_named
 from iec2mpy.semantics.defaults import default_value
 from iec2mpy.semantics.scope import UNKNOWN, GlobalScope, Scope
 from iec2mpy.semantics.signatures import is_planned_block
+from iec2mpy.semantics.stdlib import block_names
 from iec2mpy.semantics.typed import Variable
 from iec2mpy.semantics.types import (
     DEFAULT_STRING_LENGTH,
@@ -114,7 +115,7 @@ def _named(scope: Scope, spec: tree.NamedTypeSpec, name: str | None) -> Type:
             scope.diagnostics.add("E0208", f"`{text}` is a function, and no type.", spec.span)
     else:
         known = [*ELEMENTARY, "STRING", *(d.name.text for d in world.type_declarations.values())]
-        known += [t.name for t in world.block_types.values()]
+        known += [*(t.name for t in world.block_types.values()), *block_names()]
         near = suggest(text, known)
         scope.diagnostics.add(
             "E0203",
