@@ -127,7 +127,7 @@ class Addresses:
         if variable is None:
             return ""
         located = f" ({variable.address})" if variable.address else ""
-        return f"{variable.span.file.path}:{variable.span.line} {variable.name} : {variable.type}{located}"
+        return f"{variable.span.file.name}:{variable.span.line} {variable.name} : {variable.type}{located}"
 
 
 def _root_type(root: n.Root) -> ty.Type | None:

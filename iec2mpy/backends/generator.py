@@ -184,7 +184,7 @@ class _Generator:
         return [*self.names.lines(), "", f'V = array("i", bytes({4 * size.v}))', f"O = [None] * {size.o}", ""]
 
     def _head(self) -> str:
-        sources = sorted({s.pou.span.file.path for s in self._bodies_of_user()} or {"nothing"})
+        sources = sorted({s.pou.span.file.name for s in self._bodies_of_user()} or {"nothing"})
         viper = self.target.form == "viper"
         form = f"viper form, {self.target.word}-bit" if viper else "portable form"
         lines = _HEADER.format(sources=", ".join(sources), form=form) + "\nfrom array import array\n"

@@ -60,7 +60,7 @@ def _leaves(
             leaf,
             address=variable.address,
             constant=variable.constant,
-            file=variable.span.file.path,
+            file=variable.span.file.name,
             line=variable.span.line,
         )
 

@@ -15,7 +15,7 @@ class Sites:
     _numbers: dict[tuple[str, int, str], int] = field(default_factory=dict)
 
     def number(self, site: n.Site) -> int:
-        key = (site.span.file.path, site.span.line, site.pou.name)
+        key = (site.span.file.name, site.span.line, site.pou.name)
         return self._numbers.setdefault(key, len(self._numbers) + 1)
 
     def all(self) -> list[Site]:

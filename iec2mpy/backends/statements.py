@@ -51,9 +51,9 @@ class StatementWriter:
     def _statement(self, statement: n.Stmt) -> None:
         match statement:
             case n.Line(span):
-                place = (span.file.path, span.line)
+                place = (span.file.name, span.line)
                 if place != self._line:
-                    self._write(f"# {span.file.path}:{span.line}  {span.file.line_text(span.line).strip()}")
+                    self._write(f"# {span.file.name}:{span.line}  {span.file.line_text(span.line).strip()}")
                 self._line = place
             case n.Store(place, value):
                 self._store(place, value)

@@ -52,7 +52,7 @@ def load_program(paths: Sequence[Path]) -> Program:
         return Program(paths[0].stem, read_sources(paths), DEFAULT_INTERVAL_US, None)
     project = load_project(folders[0] if folders else Path())
     show_diagnostics(project.warnings)
-    return Program(project.name, read_sources(project.sources), project.interval, project)
+    return Program(project.name, read_sources(project.sources, project.root), project.interval, project)
 
 
 def exit_code(diagnostics: Sequence[Diagnostic]) -> int:

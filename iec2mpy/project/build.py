@@ -14,7 +14,7 @@ from iec2mpy.project.compile import check_files, generate, lower
 from iec2mpy.project.config import Project
 from iec2mpy.semantics.types import value_type
 from iec2mpy.source.diagnostics import CompileError, Diagnostic, Diagnostics
-from iec2mpy.source.files import load_file
+from iec2mpy.source.files import read_sources
 from iec2mpy.source.spans import SourceFile, Span
 
 BUILD_FOLDER = "build"
@@ -41,7 +41,7 @@ class Build:
 
 def load_sources(project: Project) -> list[SourceFile]:
     """The project's program text; paths are shown from where the project was named. Raises CompileError."""
-    return [load_file(path) for path in project.sources]
+    return read_sources(project.sources, project.root)
 
 
 def build_project(project: Project, emitter: str | None = None) -> Build:

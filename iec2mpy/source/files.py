@@ -18,8 +18,9 @@ _OTHER_ENCODINGS = (
 )
 
 
-def load_file(path: str | PathLike[str]) -> SourceFile:
+def load_file(path: str | PathLike[str], home: str | PathLike[str] = "") -> SourceFile:
     """The text of one file, whose name is shown as it is given here. Lines end with `\\n`, whatever the file has.
+    `home` is the folder of its project.
 
     Raises CompileError with E0001 where it cannot be read, with E0002 where it is not UTF-8 (with or without a mark).
     """
@@ -34,16 +35,17 @@ def load_file(path: str | PathLike[str]) -> SourceFile:
         text = _decode(data, shown)
     except _WrongEncoding as problem:
         raise CompileError([problem.diagnostic]) from None
-    return SourceFile(shown, text.replace("\r\n", "\n").replace("\r", "\n"))
+    lines = text.replace("\r\n", "\n").replace("\r", "\n")
+    return SourceFile(shown, lines, home=fspath(home))
 
 
-def read_sources(paths: Iterable[str | PathLike[str]]) -> list[SourceFile]:
-    """All of these files. Raises one CompileError with what is wrong with any of them."""
+def read_sources(paths: Iterable[str | PathLike[str]], home: str | PathLike[str] = "") -> list[SourceFile]:
+    """All of these files, of the project in the folder `home`. Raises one CompileError with what is wrong with any of them."""
     files: list[SourceFile] = []
     problems: list[Diagnostic] = []
     for path in paths:
         try:
-            files.append(load_file(path))
+            files.append(load_file(path, home))
         except CompileError as error:
             problems += error.diagnostics
     if problems:

@@ -5,15 +5,27 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import PurePath
 
 
 @dataclass(frozen=True, eq=False)
 class SourceFile:
-    """One file of program text. `path` is as the user wrote it: it is what messages show."""
+    """One file of program text. `path` is as the user wrote it: it is what messages show.
+
+    `home` is the folder of its project, in the same way: what is built names the file from there (`name`), so that the
+    same project gives the same program wherever it lies.
+    """
 
     path: str
     text: str = field(repr=False)
     is_stdlib: bool = False
+    home: str = ""
+
+    @cached_property
+    def name(self) -> str:
+        """The path from the project's folder, with `/` between its parts; of a file without a project, its path."""
+        path = PurePath(self.path)
+        return (path.relative_to(self.home) if self.home and path.is_relative_to(self.home) else path).as_posix()
 
     @cached_property
     def line_starts(self) -> list[int]:
