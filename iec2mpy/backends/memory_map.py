@@ -172,7 +172,9 @@ class MemoryMap:
         from iec2mpy.source.suggest import suggest
 
         where = f"{walked} has no {name}" if walked else f"there is no {name}"
-        near = suggest(name, [str(shown) for key, (shown, _) in branch.items() if key != "[]"])
+        # a variable's own name, without that of its program, is what newcomers write
+        inside = (v.path for v in self.variables if v.path.casefold().endswith(f".{name.casefold()}"))
+        near = suggest(name, [str(shown) for key, (shown, _) in branch.items() if key != "[]"]) or next(inside, None)
         return f"{where}; did you mean {near}?" if near else where
 
     def _node(self, branch: object, walked: str, offsets: list[tuple[int, Dimension]]) -> Node:

@@ -157,6 +157,7 @@ def test_fault_in_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
         (["--scans", "1", "--set", "main.count=many"], "main.count is INT: 'many' is no integer"),
         (["--scans", "1", "--set", "main.colour=blue"], "'blue' is none of red, green"),
         (["--scans", "1", "--watch", "other.x"], "there is no other"),
+        (["--scans", "1", "--watch", "Half"], "there is no Half; did you mean main.half?"),
     ],
 )
 def test_wrong_usage(arguments: list[str], said: str, program: str, capsys: pytest.CaptureFixture[str]) -> None:
