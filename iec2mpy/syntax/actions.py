@@ -109,7 +109,7 @@ def unary_operation(values: list[Any], _diagnostics: Diagnostics) -> tree.UnaryE
 
 
 @action
-def negation(values: list[Any], diagnostics: Diagnostics) -> tree.UnaryExpr | tree.CallExpr:
+def negation(values: list[Any], diagnostics: Diagnostics) -> tree.Expr:
     """`NOT (a)` is the operator; `NOT(IN := a)` the function, which has one input (table 31)."""
     operator, opening, arguments, closing = values
     span = over(operator, closing)
@@ -120,7 +120,8 @@ def negation(values: list[Any], diagnostics: Diagnostics) -> tree.UnaryExpr | tr
             span,
             "Write NOT before each value, such as `NOT a AND NOT b`.",
         )
-    if len(arguments) == 1 and arguments[0].name is None:
+        return tree.Literal("bool", False, None, span)
+    if arguments[0].name is None:
         return tree.UnaryExpr("NOT", replace(arguments[0].value, span=over(opening, closing)), span)
     return tree.CallExpr(tree.NameExpr(operator.text, operator.span), tuple(arguments), span)
 

@@ -6,6 +6,8 @@ so a missing END_IF costs one message, and the rest is read as it was meant.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from iec2mpy.source.diagnostics import Diagnostics, Related
 from iec2mpy.source.suggest import suggest
 from iec2mpy.syntax.keywords import BLOCK_ENDS, KEYWORDS, MISSPELLINGS, SECTION_WORDS
@@ -180,7 +182,7 @@ class _Balancer:
     def _is_meant_as_comma(self, at: int) -> bool:
         """Whether the open brackets of the `;` at this index are closed before the next `;` or keyword."""
         open_brackets = len(self._brackets)
-        for token in self._tokens[at + 1 :]:
+        for token in self._behind(at):
             if token.type in _BREAKS:
                 return False
             open_brackets += (token.type in _CLOSING) - (token.type in _BRACKETS)
@@ -221,8 +223,12 @@ class _Balancer:
         )
         return False
 
+    def _behind(self, at: int) -> Iterator[Token]:
+        """The tokens behind index `at`, without a copy of them."""
+        return (self._tokens[index] for index in range(at + 1, len(self._tokens)))
+
     def _next_end(self, at: int) -> str | None:
-        return next((token.type for token in self._tokens[at + 1 :] if token.type in _END_WORDS), None)
+        return next((token.type for token in self._behind(at) if token.type in _END_WORDS), None)
 
     def _close_blocks_above(self, depth: int, token: Token) -> None:
         """Report and close all blocks that are open above `depth` where `token` stands."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 from iec2mpy.source.diagnostics import Diagnostics
-from iec2mpy.syntax import messages, tables
+from iec2mpy.syntax import messages, prune, tables
 from iec2mpy.syntax.actions import ACTIONS
 from iec2mpy.syntax.keywords import BLOCK_ENDS, STATEMENT_WORDS
 from iec2mpy.syntax.tokens import Token
@@ -41,7 +41,10 @@ def run(tokens: list[Token], start: str, diagnostics: Diagnostics) -> Any:
 
     Errors go to `diagnostics`; each has the right place, and none follows from another.
     """
-    return _Driver(tokens, start, diagnostics).run()
+    driver = _Driver(tokens, start, diagnostics)
+    value = driver.run()
+    at = prune.holes(driver.tokens) if diagnostics.has_errors else []
+    return prune.prune(value, at) if at else value
 
 
 class _Driver:
@@ -52,14 +55,14 @@ class _Driver:
         self._end_state = loaded.ends[start]
         self._states = [loaded.starts[start]]
         self._values: list[Any] = []
-        self._tokens = tokens
+        self.tokens = tokens
         self._at = 0
         self._diagnostics = diagnostics
         self._errors = 0
         self._lost_end = False  # an END_ word was skipped: that its block is open at the end is no further mistake
 
     def run(self) -> Any:
-        rows, rules, states, values, tokens = self._rows, self._rules, self._states, self._values, self._tokens
+        rows, rules, states, values, tokens = self._rows, self._rules, self._states, self._values, self.tokens
         diagnostics, actions = self._diagnostics, ACTIONS
         while True:
             token = tokens[self._at]
@@ -96,21 +99,21 @@ class _Driver:
         if self._errors > _MOST_ERRORS:
             return False
         start = Token("$START", "", token.start, token.start, token.file)
-        previous = self._tokens[self._at - 1] if self._at else start
+        previous = self.tokens[self._at - 1] if self._at else start
         silent = token.bad or previous.bad or (self._lost_end and token.type == "$END")
-        following = self._tokens[min(self._at + 1, len(self._tokens) - 1)]
+        following = self.tokens[min(self._at + 1, len(self.tokens) - 1)]
         situation = messages.Situation(previous, token, following, tuple(self._values), self.accepts, self._expected())
         finding = messages.explain(situation)
         if not silent:
             self._diagnostics.add(finding.code, finding.message, finding.span, finding.hint)
         if finding.insert is not None:
-            self._tokens.insert(self._at, previous.inserted_after(finding.insert, messages.shown_type(finding.insert)))
+            self.tokens.insert(self._at, previous.inserted_after(finding.insert, messages.shown_type(finding.insert)))
             return True
         if finding.replace is not None:
-            self._tokens[self._at] = token.as_type(finding.replace)
+            self.tokens[self._at] = token.as_type(finding.replace)
             return True
         if finding.drop:
-            del self._tokens[self._at : self._at + finding.drop]
+            del self.tokens[self._at : self._at + finding.drop]
             return True
         return self._panic()
 
@@ -142,7 +145,7 @@ class _Driver:
         """Skip tokens, pop states, and put in what is missing, until a token can follow again."""
         first = self._at
         while True:
-            token = self._tokens[self._at]
+            token = self.tokens[self._at]
             if token.type in _SYNCHRONIZING:
                 for pop in range(len(self._states)):
                     if pop and self._opens_block(self._values[-pop]) and token.type != "$END":
@@ -164,8 +167,8 @@ class _Driver:
     def _build_bridge(self, bridge: tuple[str, ...], pop: int, first: int) -> None:
         if pop:
             del self._states[-pop:], self._values[-pop:]
-        start = self._tokens[first]
-        before = self._tokens[max(self._at - 1, 0)]
+        start = self.tokens[first]
+        before = self.tokens[max(self._at - 1, 0)]
         inserted = [
             Token(name, "", start.start, max(start.start, before.end), start.file, None, True)
             if name == "ERROR"
@@ -173,5 +176,5 @@ class _Driver:
             for name in bridge
         ]
         # What was skipped is cut out: the token before the next error is then one that was read.
-        self._tokens[first : self._at] = inserted
+        self.tokens[first : self._at] = inserted
         self._at = first

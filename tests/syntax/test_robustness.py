@@ -116,9 +116,9 @@ def test_time_is_linear(unit: str) -> None:
         text = "PROGRAM p\n" + unit * count + "END_PROGRAM"
         best = 1e9
         for _ in range(3):
-            started = time.perf_counter()
+            started = time.process_time()
             parse(SourceFile("test.st", text), Diagnostics())
-            best = min(best, time.perf_counter() - started)
+            best = min(best, time.process_time() - started)
         return best
 
     assert duration(3000) < 30 * max(duration(300), 0.002)
