@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from iec2mpy.source.spans import SourceFile
 
 _NO_SUCH_FILE = {"E0001", "E0844"}
+_NO_SUCH_BOARD = "E0835"
 F = TypeVar("F", bound=Callable[..., Any])
 
 
@@ -56,9 +57,12 @@ def load_program(paths: Sequence[Path]) -> Program:
 
 
 def exit_code(diagnostics: Sequence[Diagnostic]) -> int:
-    """0 without errors, 1 for errors in the user's program, 2 where there is no such file or project."""
-    errors = [d.code for d in diagnostics if not d.code.startswith("W")]
-    return 2 if _NO_SUCH_FILE & set(errors) else int(bool(errors))
+    """0 without errors, 1 for errors in the user's program, 2 where there is no such file or project, or where the
+    command line, and no file, names a board that does not exist."""
+    errors = [d for d in diagnostics if not d.code.startswith("W")]
+    if any(d.code in _NO_SUCH_FILE or (d.code == _NO_SUCH_BOARD and d.span is None) for d in errors):
+        return 2
+    return int(bool(errors))
 
 
 def show_diagnostics(diagnostics: Sequence[Diagnostic]) -> None:
@@ -76,7 +80,7 @@ def show_fault(fault: Fault, files: Sequence[SourceFile]) -> None:
     from iec2mpy.source.spans import Span
 
     span = None
-    file = next((f for f in files if f.path == fault.file), None)
+    file = next((f for f in files if f.name == fault.file), None)
     if file is not None and fault.line:
         start = file.line_starts[fault.line - 1]
         text = file.line_text(fault.line)
