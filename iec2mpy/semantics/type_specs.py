@@ -218,6 +218,8 @@ def _enumeration(scope: Scope, spec: tree.EnumSpec, name: str | None) -> Type:
         constant = Variable(item.name.text, base, tree.Section.VAR, item.name.span, number, constant=True)
         inner.locals[item.name.key] = constant
         number += 1
+    if not values:
+        return UNKNOWN  # a list that could not be read
     title = name or f"({', '.join(values)})"
     t = EnumType(title, base, values, next(iter(values.values())), open=spec.base is not None)
     if name is None:

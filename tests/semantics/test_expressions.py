@@ -191,6 +191,10 @@ def test_a_long_chain_of_operators_is_no_problem() -> None:
     assert codes_of("a : INT;", f"a := {' + '.join(['a'] * 120)};") == []
 
 
+def test_a_type_that_could_not_be_read_is_no_further_error() -> None:
+    assert {c[:3] for c, _ in codes(program("a : ARRAY[0..2]( OF INT; n : INT;", "a[n] := n;"))} == {"E01"}
+
+
 def test_errors_of_syntax_hide_what_may_follow_from_them() -> None:
     text = "PROGRAM main\nVAR a : INT b : INT; END_VAR\na := 1;\nb := c;\na := TRUE;\nEND_PROGRAM\n"
     found = codes(text)
