@@ -86,7 +86,8 @@ def show_fault(fault: Fault, files: Sequence[SourceFile]) -> None:
         text = file.line_text(fault.line)
         span = Span(file, start + len(text) - len(text.lstrip()), start + len(text))
     where = f" in {fault.pou}" if fault.pou else ""
-    show_diagnostics([Diagnostic(fault.kind, f"The program was stopped{where} by a fault, {fault.text}.", span)])
+    meaning = fault.text.removeprefix(f"{fault.kind}: ")
+    show_diagnostics([Diagnostic(fault.kind, f"A fault stopped the program{where}: {meaning}.", span)])
 
 
 def engine_option(several: bool) -> Callable[[F], F]:

@@ -130,10 +130,20 @@ def test_fault_is_told_with_its_line(options: list[str], tmp_path: Path, monkeyp
     Path("stops.st").write_text(_FAULT, encoding="utf-8")
     assert main(["run", "stops.st", "--scans", "9", "--watch", "main.n", *options]) == 1
     captured = capsys.readouterr()
-    assert "error[zero]: The program was stopped in main by a fault, zero: a division by zero." in captured.err
+    assert "error[zero]: A fault stopped the program in main: a division by zero." in captured.err
     assert "--> stops.st:4:1" in captured.err
     assert "x := 9 / (3 - n);" in captured.err
     assert "stopped by a fault" in captured.out
+
+
+def test_fault_in_a_project_is_told_with_its_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["new", str(tmp_path / "hello"), "--board", "pico"])
+    source = tmp_path / "hello" / "src" / "main.st"
+    source.write_text(_FAULT, encoding="utf-8")
+    assert main(["run", str(tmp_path / "hello"), "--scans", "9"]) == 1
+    err = capsys.readouterr().err
+    assert f"--> {source}:4:1" in err
+    assert "4 | x := 9 / (3 - n);" in err
 
 
 def test_fault_in_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
