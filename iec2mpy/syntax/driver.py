@@ -43,7 +43,7 @@ def run(tokens: list[Token], start: str, diagnostics: Diagnostics) -> Any:
     """
     driver = _Driver(tokens, start, diagnostics)
     value = driver.run()
-    at = prune.holes(driver.tokens) if diagnostics.has_errors else []
+    at = sorted(prune.holes(driver.tokens) + driver.gaps) if diagnostics.has_errors else []
     return prune.prune(value, at) if at else value
 
 
@@ -59,6 +59,7 @@ class _Driver:
         self._at = 0
         self._diagnostics = diagnostics
         self._errors = 0
+        self.gaps: list[int] = []  # where tokens were skipped with nothing in their place
         self._lost_end = False  # an END_ word was skipped: that its block is open at the end is no further mistake
 
     def run(self) -> Any:
@@ -175,6 +176,8 @@ class _Driver:
             else before.inserted_after(name, messages.shown_type(name))
             for name in bridge
         ]
+        if first < self._at and "ERROR" not in bridge and first:
+            self.gaps.append(self.tokens[first - 1].end)
         # What was skipped is cut out: the token before the next error is then one that was read.
         self.tokens[first : self._at] = inserted
         self._at = first

@@ -15,12 +15,15 @@ _VALUES = frozenset({"LITERAL", "INTEGER", "DIRECT"})
 
 
 def holes(tokens: Sequence[Token]) -> list[int]:
-    """Where something stands for what could not be read, in rising order: ERROR tokens and malformed literals."""
-    return sorted(token.start for token in tokens if token.type == "ERROR" or (token.bad and token.type in _VALUES))
+    """Where something stands for what could not be read: ERROR tokens and malformed literals."""
+    return [token.start for token in tokens if token.type == "ERROR" or (token.bad and token.type in _VALUES)]
 
 
 def prune(value: Any, at: Sequence[int]) -> Any:
-    """What a part of a file was read as, without the declarations and statements that have a hole."""
+    """What a part of a file was read as, without the declarations and statements that have a hole.
+
+    `at`: the offsets of the holes, in rising order.
+    """
     if isinstance(value, list):
         return list(_whole(value, at))
     if isinstance(value, tree.VarSection):

@@ -12,6 +12,7 @@ from tests.syntax.trees import parse_text, show
     ("text", "shown"),
     [
         ("a := 1; b := ; c := 2;", "a := 1|c := 2"),
+        ("a := b ? 1 : 2; c := 2;", "c := 2"),
         ("a := 5m; b := 'x\n; c := 2;", "c := 2"),
         ("a := %KX0; c := 2;", "c := 2"),
         ("IF a THEN b := 1 + ; c := 2; ELSE d := ; END_IF;", "(if [a: c := 2] [else: ])"),
