@@ -14,6 +14,7 @@ from iec2mpy.source.diagnostics import Diagnostics
 from iec2mpy.syntax import messages, prune, tables
 from iec2mpy.syntax.actions import ACTIONS
 from iec2mpy.syntax.keywords import BLOCK_ENDS, STATEMENT_WORDS
+from iec2mpy.syntax.situation import Situation
 from iec2mpy.syntax.tokens import Token
 
 _MOST_ERRORS = 100
@@ -103,7 +104,7 @@ class _Driver:
         previous = self.tokens[self._at - 1] if self._at else start
         silent = token.bad or previous.bad or (self._lost_end and token.type == "$END")
         following = self.tokens[min(self._at + 1, len(self.tokens) - 1)]
-        situation = messages.Situation(previous, token, following, tuple(self._values), self.accepts, self._expected())
+        situation = Situation(previous, token, following, tuple(self._values), self.accepts, self._expected())
         finding = messages.explain(situation)
         if not silent:
             self._diagnostics.add(finding.code, finding.message, finding.span, finding.hint)

@@ -85,6 +85,8 @@ BODIES: list[tuple[str, list[tuple[str, int]]]] = [
 FILES: list[tuple[str, list[tuple[str, int]]]] = [
     ("", [("E0003", 1)]),
     ("  (* nothing *)\n// here\n", [("E0003", 1)]),
+    ("PROGRAM p\n;\nEND_PROGRAM", []),
+    ("PROGRAM p; x := 1; END_PROGRAM", []),
     ("PROGRAM\nEND_PROGRAM", [("E0119", 1)]),
     ("PROGRAM if\nEND_PROGRAM", [("E0112", 1)]),
     ("PROGRAM 2nd\nEND_PROGRAM", [("E0106", 1)]),
