@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build import expressions
-from iec2mpy.ir.build.context import Context, reads
+from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.places import lower_place, storage_place
 from iec2mpy.ir.build.stores import assign, assign_initial
 from iec2mpy.semantics import typed as t
@@ -16,11 +16,12 @@ from iec2mpy.semantics import types as ty
 def call_function(context: Context, call: t.FunctionCall) -> n.Place | None:
     """Calls a function; gives the place of its result, which the next call of it overwrites."""
     function = call.function
+    _pass_arguments(context, call.arguments, n.Frame(function), ())
+    # after the arguments: these may call the same function, whose frame is one for all calls
     given = {a.parameter for a in call.arguments}
     for parameter in function.inputs:
         if parameter not in given:
             assign_initial(context, storage_place(parameter))
-    _pass_arguments(context, call.arguments, n.Place(n.Frame(function), (), ty.BOOL))
     context.emit(n.Call(function, None))
     _take_outputs(context, call.arguments)
     if function.result is None:
@@ -28,7 +29,7 @@ def call_function(context: Context, call: t.FunctionCall) -> n.Place | None:
     result = storage_place(function.result)
     if ty.value_type(result.type) is not None:
         return result
-    kept = context.new_hidden(result.type, function.result.initial)
+    kept = context.new_hidden(result.type)
     context.emit(n.Copy(kept, result))
     return kept
 
@@ -36,56 +37,55 @@ def call_function(context: Context, call: t.FunctionCall) -> n.Place | None:
 def call_block(context: Context, call: t.CallBlock) -> None:
     """Invokes an instance: its inputs keep their values unless they are given (6.6.3.4.1)."""
     instance = _fixed(context, lower_place(context, call.instance, expressions.lower_expr))
-    _pass_arguments(context, call.arguments, instance)
+    _pass_arguments(context, call.arguments, instance.root, instance.steps)
     context.emit(n.Call(call.block, instance))
-    _take_outputs(context, call.arguments)
+    with context.called(call.instance, instance):
+        _take_outputs(context, call.arguments)
 
 
 def _fixed(context: Context, place: n.Place) -> n.Place:
-    """The place with its subscripts worked out once."""
-    steps = tuple(n.Element(context.atom(s.index)) if isinstance(s, n.Element) else s for s in place.steps)
-    return n.Place(place.root, steps, place.type)
+    """The place with its subscripts worked out here and now, once."""
+    root = n.Deref(_fixed(context, place.root.reference)) if isinstance(place.root, n.Deref) else place.root
+    steps = tuple(n.Element(context.kept(s.index)) if isinstance(s, n.Element) else s for s in place.steps)
+    return n.Place(root, steps, place.type)
 
 
-def _pass_arguments(context: Context, arguments: Sequence[t.ActualParameter], callee: n.Place) -> None:
-    """Evaluates all arguments in the order written, then stores them: a store must not change a later argument."""
+def _pass_arguments(
+    context: Context, arguments: Sequence[t.ActualParameter], root: n.Root, steps: tuple[n.Step, ...]
+) -> None:
+    """Evaluates all arguments in the order written, then stores them at the callee's frame or instance: an argument may
+    call the same function. None reads what is stored here, as inputs and in-outs are not seen from outside."""
     values: list[n.Expr] = []
-    inputs: list[t.InputArgument] = []
-    bindings: list[tuple[t.Variable, n.Place]] = []
+    wholes: list[n.Place] = []
+    stores: list[tuple[n.Place, t.ActualParameter]] = []
+    bindings: list[n.Bind] = []
     for argument in arguments:
         mark = context.mark()
+        parameter = argument.parameter
+        own = n.Place(root, (*steps, n.Field(parameter)), ty.unaliased(parameter.type))
         match argument:
-            case t.InputArgument(parameter, value) if ty.value_type(parameter.type) is None:
-                source = expressions.lower_aggregate(context, value)
-                values = context.settle(mark, values)
-                context.emit(n.Copy(_own(callee, parameter), source))
+            case t.InputArgument(_, value) if ty.value_type(parameter.type) is None:
+                place = expressions.lower_aggregate(context, value)
+                values, wholes = context.settle(mark, values), [*context.settle_wholes(mark, wholes), place]
+                stores.append((own, argument))
             case t.InputArgument(_, value):
                 lowered = expressions.lower_expr(context, value)
-                values = [*context.settle(mark, values), lowered]
-                inputs.append(argument)
-            case t.InOutArgument(parameter, target):
+                values, wholes = [*context.settle(mark, values), lowered], context.settle_wholes(mark, wholes)
+                stores.append((own, argument))
+            case t.InOutArgument(_, target):
                 place = _fixed(context, lower_place(context, target, expressions.lower_expr))
-                values = context.settle(mark, values)
-                bindings.append((parameter, place))
+                values, wholes = context.settle(mark, values), context.settle_wholes(mark, wholes)
+                bindings.append(n.Bind(own, place))
             case t.OutputArgument():
                 pass
-    stored: set[t.Variable] = set()
-    for position, argument in enumerate(inputs):
-        if stored and reads(values[position], stored):
-            values[position:] = [
-                v if isinstance(v, (n.Const, n.Local)) else context.spill(v) for v in values[position:]
-            ]
-            break
-        stored.add(argument.parameter)
-    for argument, value in zip(inputs, values, strict=True):
-        assign(context, _own(callee, argument.parameter), argument.parameter.type, value)
-    for parameter, place in bindings:
-        context.emit(n.Bind(_own(callee, parameter), place))
-
-
-def _own(callee: n.Place, parameter: t.Variable) -> n.Place:
-    """The storage of a parameter in the callee's frame or instance; of an in-out, that of its reference."""
-    return n.Place(callee.root, (*callee.steps, n.Field(parameter)), ty.unaliased(parameter.type))
+    single, whole = iter(values), iter(wholes)
+    for own, argument in stores:
+        if ty.value_type(own.type) is None:
+            context.emit(n.Copy(own, next(whole)))
+        else:
+            assign(context, own, argument.parameter.type, next(single))
+    for binding in bindings:
+        context.emit(binding)
 
 
 def _take_outputs(context: Context, arguments: Sequence[t.ActualParameter]) -> None:

@@ -6,23 +6,29 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from iec2mpy.ir import nodes as n
-from iec2mpy.ir.walk import parts
 from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
+from iec2mpy.semantics.defaults import default_value
 from iec2mpy.source.spans import Span
+from iec2mpy.syntax.tree import Section
 
 FALSE = n.Const(0, ty.BOOL)
 TRUE = n.Const(1, ty.BOOL)
 
 
 class Context:
-    """Collects the statements of one POU. The block that is open receives what is emitted."""
+    """Collects the statements of one POU. The block that is open receives what is emitted.
+
+    `depth`: how many expressions stand around the one that is being lowered. `controls`: control variables of the loops
+    around, with their values. `instance`: one that was called, with its place (`called`)."""
 
     def __init__(self, pou: t.Pou) -> None:
         self.pou = pou
         self.hidden: list[t.Variable] = []
         self.locals = 0
+        self.depth = 0
         self.controls: dict[t.Variable, n.Local] = {}
+        self.instance: tuple[t.Expr, n.Place] | None = None
         self._block: list[n.Stmt] = []
         self._span = pou.span
 
@@ -71,8 +77,13 @@ class Context:
         """The value in a form that may be written several times: a constant, a local, a plain variable."""
         return value if is_atom(value) else self.spill(value)
 
-    def new_hidden(self, value_type: ty.Type, initial: t.Value) -> n.Place:
-        """A nameless variable of the frame, for a whole array or structure."""
+    def kept(self, value: n.Expr) -> n.Expr:
+        """The value in a form that means the same after any statement: a constant or a local."""
+        return value if isinstance(value, (n.Const, n.Local)) else self.spill(value)
+
+    def new_hidden(self, value_type: ty.Type) -> n.Place:
+        """A nameless variable of the frame: for a whole array or structure, and for what large code shares."""
+        initial = default_value(value_type)
         variable = t.Variable(f"__{len(self.hidden)}", value_type, None, self._span, initial, owner=self.pou)
         self.hidden.append(variable)
         return n.Place(n.Frame(self.pou), (n.Field(variable),), value_type)
@@ -81,14 +92,23 @@ class Context:
     def bound(self, control: t.Expr, current: n.Local) -> Iterator[None]:
         """Inside a FOR, its control variable has the value of a local, whose bounds are known.
 
-        Nothing in the body may write it; a global one might be written by a body that is called, and is read from its
-        slot."""
-        if not isinstance(control, t.VariableRef) or control.variable.owner is None:
+        Nothing in the body may write it. One that others can reach (a global or located one, or what an in-out stands
+        for) is read from its slot."""
+        assert isinstance(control, t.VariableRef), "the checker lets only plain variables count"
+        variable = control.variable
+        if variable.owner is None or variable.address is not None or variable.section is Section.IN_OUT:
             yield
             return
-        self.controls[control.variable] = current
+        self.controls[variable] = current
         yield
-        del self.controls[control.variable]
+        del self.controls[variable]
+
+    @contextmanager
+    def called(self, instance: t.Expr, place: n.Place) -> Iterator[None]:
+        """Inside, the expression of an instance that was called means the place that it had before the call."""
+        outer, self.instance = self.instance, (instance, place)
+        yield
+        self.instance = outer
 
     # ---------------------------------------------------------------------- order of evaluation
 
@@ -99,7 +119,7 @@ class Context:
     def settle(self, mark: int, values: list[n.Expr]) -> list[n.Expr]:
         """Keeps the order of evaluation from left to right: where something with an effect was emitted since `mark`,
         values that were worked out before it are stored in locals at the mark."""
-        if not any(isinstance(s, (n.Call, n.Store, n.Copy, n.If, n.While)) for s in self._block[mark:]):
+        if not self._has_effect_since(mark):
             return values
         settled = []
         for value in values:
@@ -111,6 +131,21 @@ class Context:
             mark += 1
             settled.append(local)
         return settled
+
+    def settle_wholes(self, mark: int, places: list[n.Place]) -> list[n.Place]:
+        """`settle`, for whole arrays and structures: they are copied."""
+        if not self._has_effect_since(mark):
+            return places
+        settled = []
+        for place in places:
+            kept = self.new_hidden(place.type)
+            self._block.insert(mark, n.Copy(kept, place))
+            mark += 1
+            settled.append(kept)
+        return settled
+
+    def _has_effect_since(self, mark: int) -> bool:
+        return any(isinstance(s, (n.Call, n.Store, n.Copy, n.If, n.While)) for s in self._block[mark:])
 
     def settle_place(self, mark: int, place: n.Place) -> n.Place:
         """`settle`, for the subscripts of a place."""
@@ -128,14 +163,3 @@ def is_atom(value: n.Expr) -> bool:
         root = value.place.root
         return not isinstance(root, n.Deref) and all(isinstance(step, n.Field) for step in value.place.steps)
     return isinstance(value, (n.Const, n.Local, n.Now))
-
-
-def reads(value: n.Expr, variables: set[t.Variable]) -> bool:
-    """Whether the value reads one of these variables, or might, through an in-out."""
-    for part in parts(value):
-        if isinstance(part, n.Load):
-            if isinstance(part.place.root, n.Deref):
-                return True
-            if any(isinstance(step, n.Field) and step.variable in variables for step in part.place.steps):
-                return True
-    return False

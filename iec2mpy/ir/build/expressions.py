@@ -15,10 +15,20 @@ from iec2mpy.semantics import types as ty
 _COMPARISONS = {"=": "eq", "<>": "ne", "<": "lt", ">": "gt", "<=": "le", ">=": "ge"}
 _BITWISE = {"AND": "and", "OR": "or", "XOR": "xor"}
 _ARITHMETIC = {"+": "add", "-": "sub", "*": "mul"}
+_DEPTH = 20
+"""So many expressions inside of each other make a part."""
 
 
 def lower_expr(context: Context, expr: t.Expr) -> n.Expr:
-    """The value of an expression that has a single one (`value_type` of its type is not None)."""
+    """The value of an expression that has a single one (`value_type` of its type is not None). One that holds many
+    others inside of each other is worked out in parts: CPython reads at most 100 brackets in a row."""
+    context.depth += 1
+    value = _lower(context, expr)
+    context.depth -= 1
+    return context.kept(value) if context.depth and context.depth % _DEPTH == 0 else value
+
+
+def _lower(context: Context, expr: t.Expr) -> n.Expr:
     match expr:
         case t.Constant(value):
             return n.Const(value, stored_type(expr.type))
@@ -88,8 +98,9 @@ def _compared(context: Context, operator: str, left: t.Expr, right: t.Expr) -> n
     left_place = lower_aggregate(context, left)
     mark = context.mark()
     right_place = lower_aggregate(context, right)
+    (left_place,) = context.settle_wholes(mark, [left_place])
     equal = context.new_local(ty.BOOL, 0, 1)
-    context.emit(n.Compare(equal, context.settle_place(mark, left_place), right_place))
+    context.emit(n.Compare(equal, left_place, right_place))
     return equal if operator == "=" else n.Not(equal, ty.BOOL)
 
 

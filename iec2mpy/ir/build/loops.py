@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build.context import FALSE, TRUE, Context
 from iec2mpy.ir.build.expressions import lower_all, lower_expr, stored_type
-from iec2mpy.ir.build.places import lower_place
+from iec2mpy.ir.build.places import check_range, lower_place, outside
 from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
 
@@ -79,8 +79,7 @@ def lower_for(context: Context, statement: t.For, lower_block: LowerBlock) -> No
     with context.block() as body:
         if not _is_bounded(statement, start, end, step):
             context.emit(n.Tick(context.site))
-        context.emit(n.Store(control, n.Wrap(next_value, value_type)))
-        context.emit(n.If(n.Not(inside, ty.BOOL), (n.Break(),), ()))
+        _give_control(context, control, next_value, inside)
         context.emit(n.SetLocal(current, next_value))
         if not headroom:
             context.emit(n.SetLocal(go_on, _room(next_value, end, step, upwards)))
@@ -110,13 +109,27 @@ def _for_any_step(
     context.emit(n.SetLocal(go_on, n.Select(upwards, below, above, ty.BOOL)))
     with context.block() as body:
         context.emit(n.Tick(context.site))
-        context.emit(n.Store(control, next_value))
-        context.emit(n.If(n.Not(go_on, ty.BOOL), (n.Break(),), ()))
+        _give_control(context, control, next_value, go_on)
         room = n.Select(upwards, _room(next_value, end, step, True), _room(next_value, end, step, False), ty.BOOL)
         context.emit(n.SetLocal(go_on, room))
         context.emit(n.SetLocal(next_value, n.Wrap(n.Op("add", next_value, step, value_type), value_type)))
         lower_block(context, statement.body)
     context.emit(n.While(TRUE, tuple(body)))
+
+
+def _give_control(context: Context, control: n.Place, value: n.Local, inside: n.Expr) -> None:
+    """The next value for the control variable, and the end of the loop. One of a subrange never has another value: a
+    pass with one faults, and where the first value that is not inside is none of its own, it keeps the last."""
+    declared, value_type = control.type, stored_type(control.type)
+    store = n.Store(control, n.Wrap(value, value_type))
+    if not isinstance(declared, ty.SubrangeType):
+        context.emit(store)
+        context.emit(n.If(n.Not(inside, ty.BOOL), (n.Break(),), ()))
+        return
+    last = n.If(n.Not(outside(value, declared.low, declared.high), ty.BOOL), (store,), ())
+    context.emit(n.If(n.Not(inside, ty.BOOL), (last, n.Break()), ()))
+    check_range(context, value, declared.low, declared.high, "range")
+    context.emit(store)
 
 
 def _room(value: n.Expr, end: n.Expr, step: n.Expr, upwards: bool) -> n.Expr:

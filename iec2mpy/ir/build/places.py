@@ -38,6 +38,8 @@ def field_place(base: n.Place, variable: t.Variable) -> n.Place:
 
 def lower_place(context: Context, expr: t.Expr, lower_expr: LowerExpr) -> n.Place:
     """The place that a variable, field or element names; checks of indices are emitted."""
+    if context.instance is not None and expr is context.instance[0]:
+        return context.instance[1]
     match expr:
         case t.VariableRef(variable) | t.DirectRef(variable):
             return variable_place(variable)
@@ -79,14 +81,20 @@ def _offset(context: Context, value: n.Expr, low: int, high: int) -> n.Expr:
 def check_range(context: Context, value: n.Expr, low: int, high: int, fault: str) -> n.Expr:
     """The value, which was checked to be inside the bounds; as an atom, if a check was needed."""
     assert isinstance(value.type, ty.ElementaryType)
-    checks = [("lt", low)] * (low > value.type.low) + [("gt", high)] * (high < value.type.high)
-    if (isinstance(value, n.Const) and low <= value.number <= high) or not checks:
+    inside = isinstance(value, n.Const) and low <= value.number <= high
+    if inside or (low <= value.type.low and value.type.high <= high):
         return value
     value = context.atom(value)
-    conditions = [n.Op(name, value, n.Const(bound, value.type), ty.BOOL) for name, bound in checks]
-    outside = conditions[0] if len(conditions) == 1 else n.Op("or", conditions[0], conditions[1], ty.BOOL)
-    context.emit(n.Guard(outside, fault, context.site))
+    context.emit(n.Guard(outside(value, low, high), fault, context.site))
     return value
+
+
+def outside(value: n.Expr, low: int, high: int) -> n.Expr:
+    """Whether an atom, whose type has more values than that, is not in low..high."""
+    assert isinstance(value.type, ty.ElementaryType)
+    checks = [("lt", low)] * (low > value.type.low) + [("gt", high)] * (high < value.type.high)
+    conditions = [n.Op(name, value, n.Const(bound, value.type), ty.BOOL) for name, bound in checks]
+    return conditions[0] if len(conditions) == 1 else n.Op("or", conditions[0], conditions[1], ty.BOOL)
 
 
 def _add(left: n.Expr, right: n.Expr) -> n.Expr:

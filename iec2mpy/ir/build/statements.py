@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from iec2mpy.ir import nodes as n
+from iec2mpy.ir.build.branches import LONGEST, Branch, keep_in_frame, lower_chain
 from iec2mpy.ir.build.calls import call_block, call_function
 from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.expressions import assign_expr, lower_expr
@@ -27,8 +28,8 @@ def _lower(context: Context, statement: t.Stmt) -> None:
             call_function(context, call)
         case t.CallBlock():
             call_block(context, statement)
-        case t.If(branches, otherwise):
-            _lower_if(context, branches, otherwise)
+        case t.If():
+            _lower_if(context, statement)
         case t.Case():
             _lower_case(context, statement)
         case t.For():
@@ -45,49 +46,39 @@ def _lower(context: Context, statement: t.Stmt) -> None:
             context.emit(n.Return())
 
 
-def _lower_if(
-    context: Context, branches: tuple[tuple[t.Expr, tuple[t.Stmt, ...]], ...], otherwise: tuple[t.Stmt, ...]
-) -> None:
-    """An ELSIF stands in the ELSE of what comes before it: its condition is evaluated only there."""
-    (condition, body), *rest = branches
-    value = lower_expr(context, condition)
-    with context.block() as then:
-        lower_block(context, body)
-    with context.block() as other:
-        if rest:
-            context.line(rest[0][0].span)
-            _lower_if(context, tuple(rest), otherwise)
-        else:
-            lower_block(context, otherwise)
-    context.emit(n.If(value, tuple(then), tuple(other)))
+def _lower_if(context: Context, statement: t.If) -> None:
+    """Each condition is evaluated only where those before it do not hold."""
+
+    def branch(number: int, condition: t.Expr, body: tuple[t.Stmt, ...]) -> Branch:
+        def test() -> n.Expr:
+            if number:
+                context.line(condition.span)
+            return lower_expr(context, condition)
+
+        return test, lambda: lower_block(context, body)
+
+    branches = [branch(number, *parts) for number, parts in enumerate(statement.branches)]
+    lower_chain(context, branches, lambda: lower_block(context, statement.otherwise))
 
 
 def _lower_case(context: Context, statement: t.Case) -> None:
-    selector = context.atom(lower_expr(context, statement.selector))
-    if not isinstance(selector, (n.Const, n.Local)):
-        # a group may change the variable that selected it
-        selector = context.spill(selector)
-    _lower_groups(context, selector, statement.groups, statement.otherwise)
+    """A group may change the variable that selected it, so the selector is kept."""
+    selector = lower_expr(context, statement.selector)
+    selector = context.kept(selector) if len(statement.groups) <= LONGEST else keep_in_frame(context, selector)
+
+    def branch(labels: tuple[tuple[int, int], ...], body: tuple[t.Stmt, ...]) -> Branch:
+        return lambda: _any([_label(selector, label) for label in labels]), lambda: lower_block(context, body)
+
+    branches = [branch(labels, body) for labels, body in statement.groups]
+    lower_chain(context, branches, lambda: lower_block(context, statement.otherwise))
 
 
-def _lower_groups(
-    context: Context,
-    selector: n.Expr,
-    groups: tuple[tuple[tuple[tuple[int, int], ...], tuple[t.Stmt, ...]], ...],
-    otherwise: tuple[t.Stmt, ...],
-) -> None:
-    if not groups:
-        lower_block(context, otherwise)
-        return
-    (labels, body), *rest = groups
-    condition = _label(selector, labels[0])
-    for label in labels[1:]:
-        condition = n.Op("or", condition, _label(selector, label), ty.BOOL)
-    with context.block() as then:
-        lower_block(context, body)
-    with context.block() as other:
-        _lower_groups(context, selector, tuple(rest), otherwise)
-    context.emit(n.If(condition, tuple(then), tuple(other)))
+def _any(conditions: Sequence[n.Expr]) -> n.Expr:
+    """Whether one of the conditions holds; in halves, so that many do not make a deep tree."""
+    if len(conditions) == 1:
+        return conditions[0]
+    middle = len(conditions) // 2
+    return n.Op("or", _any(conditions[:middle]), _any(conditions[middle:]), ty.BOOL)
 
 
 def _label(selector: n.Expr, label: tuple[int, int]) -> n.Expr:
