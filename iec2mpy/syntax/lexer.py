@@ -137,7 +137,7 @@ def _foreign_symbol(file: SourceFile, start: int, end: int, diagnostics: Diagnos
         return Token("ASSIGN", text, start, end, file)
     token_type, instead = _FOREIGN_SYMBOLS[text]
     diagnostics.add("E0118", f"`{text}` is not an operator of this language.", span, f"Write {instead}.")
-    return Token(token_type, text, start, end, file)
+    return Token(token_type, text, start, end, file, None, True)
 
 
 def _skip_comment(file: SourceFile, start: int, mark: str, diagnostics: Diagnostics) -> tuple[int, bool]:
