@@ -4,6 +4,8 @@ Debian's python3 comes without `ensurepip`, which the module venv needs; the pac
 missing, pip is put into the new environment by a pip that is there already, or by pip's own installer.
 """
 
+import hashlib
+import json
 import os
 import subprocess
 import sys
@@ -12,7 +14,7 @@ import urllib.request
 import venv
 
 OLDEST = (3, 11)
-INSTALLER = "https://bootstrap.pypa.io/get-pip.py"
+INDEX = "https://pypi.org/pypi/pip/json"
 
 
 def this_python_can(statement):
@@ -25,19 +27,27 @@ def pip_of_this_python(python):
     return this_python_can("import pip.__main__") and subprocess.call(command) == 0
 
 
-def pip_by_its_installer(python):
-    print("This Python has no ensurepip and no pip: fetching pip's installer, " + INSTALLER)
+def pip_from_its_wheel(python):
+    """A wheel is an archive that Python can import from: pip's own can install itself."""
+    print("This Python has no ensurepip and no pip: fetching pip from " + INDEX)
     try:
-        with urllib.request.urlopen(INSTALLER, timeout=60) as answer:
-            text = answer.read()
-    except OSError as error:
+        with urllib.request.urlopen(INDEX, timeout=60) as answer:
+            files = json.load(answer)["urls"]
+        wheel = next(file for file in files if file["packagetype"] == "bdist_wheel")
+        with urllib.request.urlopen(wheel["url"], timeout=60) as answer:
+            data = answer.read()
+    except (OSError, ValueError, KeyError, StopIteration) as error:
         print("It cannot be fetched: " + str(error), file=sys.stderr)
         return False
+    if hashlib.sha256(data).hexdigest() != wheel["digests"]["sha256"]:
+        print("It is damaged: its hash is not the one that the index states.", file=sys.stderr)
+        return False
     with tempfile.TemporaryDirectory() as folder:
-        script = os.path.join(folder, "get-pip.py")
-        with open(script, "wb") as file:
-            file.write(text)
-        return subprocess.call([python, script, "-q"]) == 0
+        path = os.path.join(folder, wheel["filename"])
+        with open(path, "wb") as file:
+            file.write(data)
+        command = [python, os.path.join(path, "pip"), "install", "--quiet", "--no-index", path]
+        return subprocess.call(command) == 0
 
 
 def main():
@@ -48,7 +58,7 @@ def main():
     with_pip = this_python_can("from ensurepip import version")
     venv.create(folder, clear=True, with_pip=with_pip, symlinks=os.name != "nt")
     python = os.path.join(folder, "bin", "python")
-    if not (with_pip or pip_of_this_python(python) or pip_by_its_installer(python)):
+    if not (with_pip or pip_of_this_python(python) or pip_from_its_wheel(python)):
         sys.exit(
             "A virtual environment cannot be made: this Python has no ensurepip.\n"
             "On Debian and Ubuntu, install it with:  sudo apt install python3-venv"
