@@ -1,7 +1,7 @@
 """Makes a virtual environment with pip: `python3 make_venv.py DIR`. Runs with nothing but the standard library.
 
 Debian's python3 comes without `ensurepip`, which the module venv needs; the package python3-venv holds it. Where it is
-missing, pip is put into the new environment by a pip that is there already, or by pip's own installer.
+missing, pip is put into the new environment by a pip that is there already, or from its wheel at PyPI.
 """
 
 import hashlib
@@ -10,6 +10,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import urllib.parse
 import urllib.request
 import venv
 
@@ -34,7 +35,7 @@ def pip_from_its_wheel(python):
         with urllib.request.urlopen(INDEX, timeout=60) as answer:
             files = json.load(answer)["urls"]
         wheel = next(file for file in files if file["packagetype"] == "bdist_wheel")
-        with urllib.request.urlopen(wheel["url"], timeout=60) as answer:
+        with urllib.request.urlopen(urllib.parse.urljoin(INDEX, wheel["url"]), timeout=60) as answer:
             data = answer.read()
     except (OSError, ValueError, KeyError, StopIteration) as error:
         print("It cannot be fetched: " + str(error), file=sys.stderr)

@@ -40,7 +40,10 @@ def load_file(path: str | PathLike[str], home: str | PathLike[str] = "") -> Sour
 
 
 def read_sources(paths: Iterable[str | PathLike[str]], home: str | PathLike[str] = "") -> list[SourceFile]:
-    """All of these files, of the project in the folder `home`. Raises one CompileError with what is wrong with any of them."""
+    """All of these files, of the project in the folder `home`.
+
+    Raises one CompileError with what is wrong with any of them.
+    """
     files: list[SourceFile] = []
     problems: list[Diagnostic] = []
     for path in paths:
