@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import re
 import struct
 from collections.abc import Callable, Mapping
 
 from iec2mpy.backends.forms import pattern
+from iec2mpy.syntax.time_literals import value_of
 
 Enum = Mapping[str, int]
 _UNITS = (("d", 86_400_000), ("h", 3_600_000), ("m", 60_000), ("s", 1000), ("ms", 1))
-_DURATION = re.compile(r"(?:T|TIME)#(?P<sign>-?)(?P<parts>(?:\d+(?:_\d+)*(?:\.\d+)?(?:d|h|ms|m|s)_?)+)", re.IGNORECASE)
-_PART = re.compile(r"(\d+(?:_\d+)*(?:\.\d+)?)(d|h|ms|m|s)", re.IGNORECASE)
 
 
 def format_duration(milliseconds: int) -> str:
@@ -24,13 +22,12 @@ def format_duration(milliseconds: int) -> str:
 
 
 def parse_duration(text: str) -> int:
-    """Milliseconds of a duration such as `T#1s500ms`; raises ValueError."""
-    match = _DURATION.fullmatch(text.strip())
-    if match is None:
-        raise ValueError(f"{text!r} is no duration such as T#1s500ms")
-    sizes = dict(_UNITS)
-    total = sum(float(n.replace("_", "")) * sizes[unit.lower()] for n, unit in _PART.findall(match["parts"]))
-    return round(-total if match["sign"] else total)
+    """Milliseconds of a duration such as `T#1s500ms`, as TIME holds them; raises ValueError."""
+    match value_of(text):
+        case ("duration", nanoseconds):
+            return nanoseconds // 1_000_000
+        case _:
+            raise ValueError(f"{text!r} is no duration such as T#1s500ms")
 
 
 def _in_range(value: int, low: int, high: int) -> int:

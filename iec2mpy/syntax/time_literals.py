@@ -70,6 +70,20 @@ def read(file: SourceFile, start: int, at: int, prefix: str, diagnostics: Diagno
     return Token("LITERAL", span.text, start, end, file, Literal(kind, value, prefix, span), bad), end
 
 
+def value_of(text: str) -> tuple[str, int] | None:
+    """The kind and the nanoseconds of a literal that stands alone, as in a project file or a case file: `T#1m30s`. None
+    for everything else."""
+    text = text.strip()
+    prefix, separator, _ = text.partition("#")
+    if not separator or prefix.upper() not in PREFIXES:
+        return None
+    diagnostics = Diagnostics()
+    token, end = read(SourceFile("", text), 0, len(prefix) + 1, prefix, diagnostics)
+    if diagnostics.has_errors or end < len(text) or token.value is None:
+        return None
+    return PREFIXES[prefix.upper()], int(token.value.value)
+
+
 def _code(kind: str) -> str:
     return "E0108" if kind == "duration" else "E0109"
 
