@@ -17,7 +17,7 @@ help:
 $(VENV)/installed: pyproject.toml .ci/make_venv.py
 	@echo "Installing iec2mpy into $(VENV)"
 	@$(PYTHON) .ci/make_venv.py $(VENV)
-	@$(BIN)/python -m pip install --quiet --editable .
+	@$(BIN)/python -m pip install --quiet --editable '.[plot]'
 	@touch $@
 
 $(VENV)/installed-dev: $(VENV)/installed

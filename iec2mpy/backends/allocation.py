@@ -27,11 +27,11 @@ def first_allocation(module: n.Module, target: Target) -> Span | None:
 
 def _allocates(expr: n.Expr, target: Target) -> bool:
     match expr:
-        case n.Op() | n.ToReal() | n.Intrinsic() if _in_objects(expr.type):
+        case n.Op() | n.ToReal() | n.Intrinsic() if expr.type.in_objects:
             return True
         case n.Intrinsic(name, arguments):
-            # the arguments of a Python function are objects: a large integer is boxed
-            return INTRINSICS[name].module is not None and any(_is_large(a) for a in arguments)
+            # arguments and results of a Python function are objects: a large integer is boxed
+            return INTRINSICS[name].module is not None and any(_is_large(a) for a in (expr, *arguments))
         case n.Op(name) if name not in n.COMPARISONS:
             return target.form == "portable" and _is_large(expr)
         case n.Load() | n.Now():
@@ -42,10 +42,4 @@ def _allocates(expr: n.Expr, target: Target) -> bool:
 
 def _is_large(expr: n.Expr) -> bool:
     """Whether the value may not fit the 31 bits of a small integer."""
-    if isinstance(expr, n.Const) or isinstance(expr.type, ty.StringType) or expr.type.in_objects:
-        return False
-    return expr.type.bits == 32
-
-
-def _in_objects(value_type: n.ValueType) -> bool:
-    return isinstance(value_type, ty.StringType) or value_type.in_objects
+    return not isinstance(expr, n.Const) and isinstance(expr.type, ty.ElementaryType) and expr.type.bits == 32

@@ -14,7 +14,7 @@ from iec2mpy.backends.target import Target
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.bounds import bounds
 from iec2mpy.ir.intrinsics import INTRINSICS
-from iec2mpy.ir.walk import parts
+from iec2mpy.ir.walk import may_fault
 from iec2mpy.semantics import types as ty
 from iec2mpy.semantics.typed import Pou
 
@@ -63,7 +63,7 @@ class ExpressionWriter:
             case n.Op(name, left, right) if name in n.COMPARISONS:
                 # with a NaN, neither a < b nor a >= b holds
                 return Text(f"not {self._comparison(name, left, right).at(Binding.COMPARE)}", Binding.NOT)
-            case n.Op("and" | "or" as name, left, right) if expr.type is ty.BOOL and not _may_fault(right):
+            case n.Op("and" | "or" as name, left, right) if expr.type is ty.BOOL and not may_fault(right):
                 operator = name if not negate else {"and": "or", "or": "and"}[name]
                 return infix(self.condition(left, negate), operator, self.condition(right, negate))
             case _:
@@ -78,7 +78,7 @@ class ExpressionWriter:
             case n.Const(value):
                 return self._constant(value, expr.type)
             case n.Local(local, value_type):
-                return Text(f"{'x' if _in_objects(value_type) else 't'}{local}")
+                return Text(f"{'x' if value_type.in_objects else 't'}{local}")
             case n.Load(place, value_type):
                 return self._load(place, value_type)
             case n.Now(value_type):
@@ -114,7 +114,7 @@ class ExpressionWriter:
         return number(value)
 
     def _load(self, place: n.Place, value_type: n.ValueType) -> Text:
-        if _in_objects(value_type):
+        if value_type.in_objects:
             self.uses_objects = True
             return Text(f"o[{self.addresses.subscript(place, 'O').code}]")
         assert isinstance(value_type, ty.ElementaryType)
@@ -223,7 +223,7 @@ class ExpressionWriter:
         result = call(runtime.function, *texts)
         if runtime.rounds:
             return self._rounded(result)
-        return call("int", result) if self.viper and not _in_objects(value_type) else result
+        return call("int", result) if self.viper and not value_type.in_objects else result
 
     def _argument(self, argument: n.Expr) -> Text:
         """An argument of a function of the runtime: there, a number is an object, of any size."""
@@ -244,14 +244,6 @@ _NEGATED = {"eq": "ne", "ne": "eq", "lt": "ge", "ge": "lt", "gt": "le", "le": "g
 
 def _choice(then: Text, condition: Text, otherwise: Text) -> Text:
     return Text(f"{then.at(Binding.OR)} if {condition.code} else {otherwise.code}", Binding.SELECT)
-
-
-def _in_objects(value_type: n.ValueType) -> bool:
-    return isinstance(value_type, ty.StringType) or value_type.in_objects
-
-
-def _may_fault(expr: n.Expr) -> bool:
-    return any(isinstance(part, n.Intrinsic) and INTRINSICS[part.name].faults for part in parts(expr))
 
 
 def real_literal(value: float, single: bool) -> Text:

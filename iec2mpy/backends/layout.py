@@ -85,7 +85,7 @@ class Layout:
             return self.record(declared).size
         stored = ty.value_type(declared)
         assert stored is not None
-        return _OBJECT if isinstance(stored, ty.StringType) or stored.in_objects else _SLOT
+        return _OBJECT if stored.in_objects else _SLOT
 
     def record(self, declared: ty.StructType | ty.BlockType) -> Record:
         """The layout of a structure or of a block's instances."""

@@ -94,7 +94,7 @@ class StatementWriter:
 
     def _store(self, place: n.Place, value: n.Expr) -> None:
         text = self.expressions.value(value)
-        if isinstance(value.type, ty.StringType) or value.type.in_objects:
+        if not isinstance(value.type, ty.ElementaryType) or value.type.in_objects:
             self.expressions.uses_objects = True
             self._write(f"o[{self.expressions.addresses.subscript(place, 'O').code}] = {text.code}")
             return

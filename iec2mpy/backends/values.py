@@ -30,7 +30,7 @@ def flat_values(layout: Layout, declared: ty.Type, value: object, array: str) ->
         return found
     stored = ty.value_type(declared)
     assert stored is not None
-    if (isinstance(stored, ty.StringType) or stored.in_objects) != (array == "O"):
+    if stored.in_objects != (array == "O"):
         return []
     if isinstance(stored, ty.ElementaryType) and array == "V":
         assert isinstance(value, int)

@@ -7,6 +7,7 @@ import json
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -63,6 +64,8 @@ def command(
     span_us = _span(scans, duration)
     if scans is None and span_us is None and (trace or plot or as_json):
         raise click.UsageError("--trace, --plot and --json need an end: say --scans or --for.")
+    if plot is not None and find_spec("matplotlib") is None:
+        raise UserError("--plot needs matplotlib: pip install 'iec2mpy[plot]'")
     from iec2mpy.backends.target import ENGINE_TARGETS
     from iec2mpy.project.compile import check_files, generate, lower
     from iec2mpy.simulator.session import Simulation

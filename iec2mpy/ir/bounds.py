@@ -50,13 +50,13 @@ def _bounds(expr: n.Expr, known: Known) -> Bounds | None:
         case n.Load(place):
             return known(expr) or ty.value_range(place.type)
         case n.Wrap(operand, value_type):
-            inner = bounds(operand, known) if not _in_objects(operand) else None
+            inner = bounds(operand, known) if not operand.type.in_objects else None
             limits = _type_bounds(value_type)
             return inner if inner is not None and limits[0] <= inner[0] and inner[1] <= limits[1] else limits
         case n.Select(_, then, otherwise):
             (low1, high1), (low2, high2) = bounds(then, known), bounds(otherwise, known)
             return min(low1, low2), max(high1, high2)
-        case n.Op(name, left, right) if name in _OPERATIONS and not _in_objects(left):
+        case n.Op(name, left, right) if name in _OPERATIONS and not left.type.in_objects:
             return _OPERATIONS[name](bounds(left, known), bounds(right, known))
         case n.Intrinsic("real_to_int" | "real_trunc" | "str_to_int", (_, n.Const() as low, n.Const() as high)):
             return low.number, high.number
@@ -64,10 +64,6 @@ def _bounds(expr: n.Expr, known: Known) -> Bounds | None:
             return 0, ty.INT.high
         case _:
             return None
-
-
-def _in_objects(expr: n.Expr) -> bool:
-    return isinstance(expr.type, ty.StringType) or expr.type.in_objects
 
 
 def _add(a: Bounds, b: Bounds) -> Bounds:

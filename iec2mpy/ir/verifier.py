@@ -33,14 +33,14 @@ def problems(body: n.Body, module: n.Module) -> Iterator[str]:
                 yield f"{pou.name} has no body"
             case n.Store(place, value) if not _alike(place.type, value.type):
                 yield f"a {value.type} is stored to a {place.type}"
-            case n.SetLocal(local, value) if _in_objects(local.type) != _in_objects(value.type):
+            case n.SetLocal(local, value) if local.type.in_objects != value.type.in_objects:
                 yield f"a {value.type} in local {local.number}, which is {local.type}"
             case n.If(condition) | n.While(condition) | n.Guard(condition) if condition.type is not ty.BOOL:
                 yield f"a condition is {condition.type}"
             case _:
                 pass
         for expr in expressions(statement):
-            if isinstance(expr, n.Op) and _in_objects(expr.left.type) != _in_objects(expr.right.type):
+            if isinstance(expr, n.Op) and expr.left.type.in_objects != expr.right.type.in_objects:
                 yield f"{expr.name} of {expr.left.type} and {expr.right.type}"
 
 
@@ -54,11 +54,7 @@ def _all_places(statement: n.Stmt) -> Iterator[n.Place]:
 
 def _alike(declared: ty.Type, stored: n.ValueType) -> bool:
     target = ty.value_type(declared)
-    return target is not None and _in_objects(target) == _in_objects(stored)
-
-
-def _in_objects(value_type: n.ValueType) -> bool:
-    return isinstance(value_type, ty.StringType) or value_type.in_objects
+    return target is not None and target.in_objects == stored.in_objects
 
 
 def _locals(block: n.Block, known: set[int], count: int) -> Iterator[str]:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from iec2mpy.ir import nodes as n
+from iec2mpy.ir.intrinsics import INTRINSICS
 
 Rewrite = Callable[[n.Expr], n.Expr]
 
@@ -192,6 +193,11 @@ def parts(expr: n.Expr) -> Iterator[n.Expr]:
                 yield from parts(argument)
         case _:
             pass
+
+
+def may_fault(expr: n.Expr) -> bool:
+    """Whether working out the expression may raise a fault: then it counts as an effect."""
+    return any(isinstance(part, n.Intrinsic) and INTRINSICS[part.name].faults for part in parts(expr))
 
 
 def _place_expressions(place: n.Place) -> Iterator[n.Expr]:

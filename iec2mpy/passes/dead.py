@@ -6,8 +6,7 @@ from collections import Counter
 from dataclasses import replace
 
 from iec2mpy.ir import nodes as n
-from iec2mpy.ir.intrinsics import INTRINSICS
-from iec2mpy.ir.walk import expressions, map_block, parts, set_local, statements
+from iec2mpy.ir.walk import expressions, map_block, may_fault, set_local, statements
 
 
 def remove_dead(body: n.Body) -> n.Body:
@@ -30,7 +29,7 @@ def _reduce(statement: n.Stmt) -> n.Block:
             return _cut(then if condition.value else otherwise)
         case n.If(condition, then, otherwise):
             then, otherwise = _cut(then), _cut(otherwise)
-            if not _has_code(then) and not _has_code(otherwise) and not _may_fault(condition):
+            if not _has_code(then) and not _has_code(otherwise) and not may_fault(condition):
                 return ()
             return (n.If(condition, then, otherwise),)
         case n.While(n.Const() as condition) if not condition.value:
@@ -55,11 +54,7 @@ def _is_unread(statement: n.Stmt, reads: Counter[int]) -> bool:
     local = set_local(statement)
     if local is None or reads[local.number]:
         return False
-    return not (isinstance(statement, n.SetLocal) and _may_fault(statement.value))
-
-
-def _may_fault(expr: n.Expr) -> bool:
-    return any(isinstance(part, n.Intrinsic) and INTRINSICS[part.name].faults for part in parts(expr))
+    return not (isinstance(statement, n.SetLocal) and may_fault(statement.value))
 
 
 def _has_code(block: n.Block) -> bool:

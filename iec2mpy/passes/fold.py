@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from iec2mpy.ir import nodes as n
-from iec2mpy.ir.walk import map_body
+from iec2mpy.ir.walk import map_body, may_fault
 from iec2mpy.semantics import arithmetic
 from iec2mpy.semantics import types as ty
 
@@ -57,16 +57,14 @@ def _operation(expr: n.Op, left: n.Const, right: n.Const) -> n.Expr:
 
 def _identity(expr: n.Op, name: str, left: n.Expr, right: n.Expr) -> n.Expr:
     """x + 0, x * 1, b AND TRUE and their like; not of REAL, where x + 0.0 is not always x."""
-    if isinstance(left.type, ty.StringType) or left.type.in_objects:
-        return expr
     if isinstance(left, n.Const) and name in ("add", "mul", "and", "or", "xor"):
         left, right = right, left
-    if not isinstance(right, n.Const) or isinstance(left.type, ty.StringType):
+    if not isinstance(right, n.Const) or not isinstance(left.type, ty.ElementaryType) or left.type.in_objects:
         return expr
     value = right.number
     if (value == 0 and name in ("add", "sub", "or", "xor", "shl", "shr")) or (value == 1 and name in ("mul", "div")):
         return left
-    if value == 0 and name in ("and", "mul"):
+    if value == 0 and name in ("and", "mul") and not may_fault(left):
         return n.Const(0, expr.type)
     if value == left.type.high and name == "and":
         return left

@@ -12,8 +12,9 @@ from typing import TypeVar
 
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.bounds import Bounds, bounds
-from iec2mpy.ir.walk import map_statement_exprs, statements
+from iec2mpy.ir.walk import map_statement_exprs, may_fault, statements
 from iec2mpy.semantics import types as ty
+from iec2mpy.semantics.typed import Pou
 
 _Key = TypeVar("_Key")
 _MIRRORED = {"lt": "gt", "gt": "lt", "le": "ge", "ge": "le", "eq": "eq", "ne": "ne"}
@@ -22,13 +23,14 @@ _NEGATED = {"lt": "ge", "ge": "lt", "le": "gt", "gt": "le", "eq": "ne", "ne": "e
 
 @dataclass(slots=True)
 class _Facts:
-    """What is known at a point: bounds of locals, and of plain variables by their place."""
+    """What is known at a point of a body: bounds of locals, and of plain variables by their place."""
 
+    pou: Pou
     locals: dict[int, Bounds] = field(default_factory=dict)
     variables: dict[n.Place, Bounds] = field(default_factory=dict)
 
     def copy(self) -> _Facts:
-        return _Facts(dict(self.locals), dict(self.variables))
+        return _Facts(self.pou, dict(self.locals), dict(self.variables))
 
     def of(self, expr: n.Expr) -> Bounds | None:
         if isinstance(expr, n.Local):
@@ -43,7 +45,7 @@ class _Facts:
             return  # this point is never reached
         if isinstance(expr, n.Local):
             self.locals[expr.number] = found
-        elif isinstance(expr, n.Load) and _is_plain(expr.place):
+        elif isinstance(expr, n.Load) and _is_plain(expr.place, self.pou):
             self.variables[expr.place] = found
 
     def meet(self, other: _Facts) -> None:
@@ -61,7 +63,7 @@ def _met(first: dict[_Key, Bounds], second: dict[_Key, Bounds]) -> dict[_Key, Bo
 
 def narrow(body: n.Body) -> n.Body:
     """The body without checks and wrap-arounds that its value ranges make needless."""
-    return replace(body, block=_block(body.block, _Facts()))
+    return replace(body, block=_block(body.block, _Facts(body.pou)))
 
 
 def _block(block: n.Block, facts: _Facts) -> n.Block:
@@ -83,7 +85,7 @@ def _statement(statement: n.Stmt, facts: _Facts) -> n.Stmt:
             facts.locals.pop(local.number, None)
         case n.Store(place, value):
             _forget(place, facts)
-            if _is_integer(value) and _is_plain(place):
+            if _is_integer(value) and _is_plain(place, facts.pou):
                 facts.variables[place] = bounds(value, facts.of)
         case n.Copy(place) | n.Reset(place):
             _forget(place, facts)
@@ -134,20 +136,27 @@ def _forget_what_changes(body: n.Block, facts: _Facts) -> None:
 
 def _forget(place: n.Place, facts: _Facts) -> None:
     """A store through an in-out may change anything; a whole array or structure, what is in it."""
-    if isinstance(place.root, n.Deref) or ty.value_type(place.type) is None:
+    if isinstance(place.root, n.Deref) or _may_be_own(place, facts.pou) or ty.value_type(place.type) is None:
         facts.variables.clear()
     else:
         facts.variables.pop(place, None)
 
 
-def _is_plain(place: n.Place) -> bool:
+def _is_plain(place: n.Place, pou: Pou) -> bool:
     """A variable or field that no other place can be: its own storage, found without a subscript. Located variables
     share theirs with others at the same address."""
-    if isinstance(place.root, n.Deref) or (
-        isinstance(place.root, n.Global) and place.root.variable.address is not None
-    ):
+    if isinstance(place.root, n.Deref) or _may_be_own(place, pou):
+        return False
+    if isinstance(place.root, n.Global) and place.root.variable.address is not None:
         return False
     return all(isinstance(step, n.Field) for step in place.steps)
+
+
+def _may_be_own(place: n.Place, pou: Pou) -> bool:
+    """Whether this is a variable of a global instance of the block whose body this is: perhaps the one that runs."""
+    return isinstance(place.root, n.Global) and any(
+        isinstance(step, n.Field) and step.variable.owner is pou for step in place.steps
+    )
 
 
 def _is_integer(value: n.Expr) -> bool:
@@ -205,7 +214,8 @@ def _simplifier(facts: _Facts) -> Callable[[n.Expr], n.Expr]:
             case n.Wrap(operand, ty.ElementaryType() as to):
                 return _wrap(operand, to, facts)
             case n.Op(name, left, right) if name in _MIRRORED and _is_integer(left):
-                return _decided(expr, name, bounds(left, facts.of), bounds(right, facts.of))
+                decided = _decided(expr, name, bounds(left, facts.of), bounds(right, facts.of))
+                return expr if decided is not expr and may_fault(expr) else decided
             case n.Local(number, value_type, None, None) if number in facts.locals:
                 # later stages see the bounds without the way that led to them
                 low, high = facts.locals[number]

@@ -108,6 +108,11 @@ class StringType:
 
     length: int = DEFAULT_STRING_LENGTH
 
+    @property
+    def in_objects(self) -> bool:
+        """Whether a value lives in `O`: a string does."""
+        return True
+
     def __str__(self) -> str:
         return "STRING" if self.length == DEFAULT_STRING_LENGTH else f"STRING[{self.length}]"
 

@@ -57,8 +57,11 @@ def _cell(value: Number | str) -> str:
 
 
 def draw_svg(trace: Trace, path: Path, title: str) -> None:
-    """Curves of the numbers above, and below them a band for each BOOL, over the time in seconds."""
-    # matplotlib takes a third of a second to import, and only a drawing needs it
+    """Curves of the numbers above, and below them a band for each BOOL, over the time in seconds.
+
+    Raises ModuleNotFoundError where matplotlib is not installed.
+    """
+    # matplotlib takes a third of a second to import, and is an extra: only a drawing needs it
     from matplotlib.figure import Figure
 
     numbers = [c for c in trace.columns if c.kind == "number"]

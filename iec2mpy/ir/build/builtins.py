@@ -8,7 +8,7 @@ from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.conversions import fit_string
 from iec2mpy.ir.intrinsics import INTRINSICS
-from iec2mpy.ir.walk import parts
+from iec2mpy.ir.walk import may_fault
 from iec2mpy.semantics import types as ty
 
 Lowering = Callable[[Context, str, list[n.Expr], n.ValueType], n.Expr]
@@ -17,7 +17,7 @@ Lowering = Callable[[Context, str, list[n.Expr], n.ValueType], n.Expr]
 def lower_builtin(context: Context, name: str, arguments: Sequence[n.Expr], result: n.ValueType) -> n.Expr:
     """The call of a standard function, by its name in `stdlib/functions.toml`."""
     # all arguments of a call are evaluated, also those that are not selected: one that may fault is evaluated now
-    values = [context.spill(a) if _may_fault(a) else a for a in arguments]
+    values = [context.spill(a) if may_fault(a) else a for a in arguments]
     return _LOWERINGS.get(name, _intrinsic)(context, name, values, result)
 
 
@@ -25,10 +25,6 @@ def power(context: Context, base: n.Expr, exponent: n.Expr, result: n.ValueType)
     """`**`: a REAL to the power of any number (table 29, EXPT)."""
     context.emit(n.Mark(context.site))
     return n.Intrinsic("EXPT", (base, exponent), result)
-
-
-def _may_fault(value: n.Expr) -> bool:
-    return any(isinstance(p, n.Intrinsic) and INTRINSICS[p.name].faults for p in parts(value))
 
 
 def _intrinsic(context: Context, name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:

@@ -15,13 +15,14 @@ The rules, where MicroPython has them (in its folder `py`), and which test in te
 | the first assignment in the text gives a local its type | emitnative.c `store_fast` | refused |
 | the body of `while` is compiled before its condition | compile.c `compile_while_stmt` | refused |
 | a literal outside of -2^30 to 2^30 - 1 is an object | parse.c `make_node_const_object_optimised` | refused |
+| -2^30 is one only where the compiler has 32 bits: refused | parse.c `fold_constants` | refused |
 | of the errors of a statement the last one is told | emitnative.c `EMIT_NATIVE_VIPER_TYPE_ERROR` | refused |
 | a result has the type of the left operand, and wraps | emitnative.c `binary_op` | machine, real |
 | `bool`, and `int` beside an object, have no operations | emitnative.c `binary_op` | refused |
 | `int` is not compared with `uint` | emitnative.c `binary_op` | refused |
 | `uint` has no `//`, `%`; numbers have no `/`, `**`, `is`, `in` | emitnative.c `binary_op` | refused |
 | `//` adds first, and is wrong where that overflows: a fault | smallint.c `mp_small_int_floor_divide` | machine, real |
-| division by 0, a shift count outside of 0 to 31: a fault | (chips differ) | machine |
+| division by 0, -2^31 by -1, a shift by less than 0 or more than 31: a fault | (chips differ) | machine |
 | `not` of a number is no value | emitnative.c `unary_op` | refused |
 | `and`, `or`, `if` have the type of their last operand | emitnative.c `jump_helper` | refused, machine |
 | `-x`, `~x` overwrite `x` before August 2026: refused | emitnative.c `unary_op` | real |

@@ -92,6 +92,9 @@ def _constant(node: ast.Constant, scope: Scope) -> Value:
         return immediate(Kind.BOOL, int(value))
     if value is None:
         return Value(Kind.NONE, constant(None), 0, 0, immediate=0)
+    if value == SMALL_LOW:
+        # mpy-cross takes it for an int; to a compiler of 32 bits it is the negative of 2^30, which is an object
+        refuse(f"the number {SMALL_LOW}: an object where the compiler itself has 32 bits", node)
     if isinstance(value, int) and SMALL_LOW <= value <= SMALL_HIGH:
         return immediate(Kind.INT, value)
     if isinstance(value, complex):

@@ -66,7 +66,7 @@ def _shift_count(count: int) -> int:
 
 def floor_divide(a: int, b: int) -> int:
     """As MicroPython computes it: it adds to `a` first, and that may leave the 32 bits, so that the quotient is wrong
-    although it would fit (-2147483648 // 10, say). -2147483648 // -1 wraps, on every chip."""
+    although it would fit (-2147483648 // 10, say)."""
     if b == 0:
         raise fault("division by 0")
     sum_first = a
@@ -74,14 +74,16 @@ def floor_divide(a: int, b: int) -> int:
         sum_first = a - b - 1
     elif a < 0 < b:
         sum_first = a - b + 1
-    if not INT_LOW <= sum_first <= INT_HIGH:
+    if not INT_LOW <= sum_first <= INT_HIGH or (a == INT_LOW and b == -1):
         raise fault(f"division overflow: {a} // {b}")
-    return INT_LOW if a == INT_LOW and b == -1 else a // b
+    return a // b
 
 
 def _modulo(a: int, b: int) -> int:
     if b == 0:
         raise fault("division by 0")
+    if a == INT_LOW and b == -1:
+        raise fault(f"division overflow: {a} % {b}")
     return a % b
 
 

@@ -134,7 +134,7 @@ def _division(operator: ast.operator, left: Value, right: Value, scope: Scope) -
     """Rounds down. A quotient by a positive constant is exact where the sum that comes first cannot overflow."""
     divisor = right.immediate
     if isinstance(operator, ast.Mod):
-        if not divisor:
+        if divisor in (None, 0, -1):
             return native(Kind.INT, call("$mod", left.code, right.code))
         low, high = (0, divisor - 1) if divisor > 0 else (divisor + 1, 0)
         return Value(Kind.INT, binary(left.code, operator, right.code), low, high)
