@@ -63,7 +63,7 @@ def _unsigned(text: str) -> str:
 
 
 def _literals() -> st.SearchStrategy[int]:
-    edges = [0, 1, -1, 31, 255, 65535, 32768, -32768, 0x3FFFFFFF, -0x40000000]
+    edges = [0, 1, -1, 31, 255, 65535, 32768, -32768, 0x3FFFFFFF, -0x3FFFFFFF]
     return st.one_of(st.integers(-100, 100), st.sampled_from(edges))
 
 
