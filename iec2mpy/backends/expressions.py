@@ -19,8 +19,11 @@ from iec2mpy.semantics import types as ty
 from iec2mpy.semantics.typed import Pou
 
 _SYMBOLS = {"add": "+", "sub": "-", "mul": "*", "and": "&", "or": "|", "xor": "^"}
+_HIGHEST = (1 << 31) - 1
+"""Of a machine word of 32 bits; of its lowest number there is no negative."""
 _VIPER_LITERAL = 1 << 30
-"""A literal of this size and beyond is an object to a 32-bit viper."""
+"""A literal of this size and beyond is an object to a 32-bit viper. (-2^30 would fit, but is read as the negative of one
+that does not.)"""
 
 
 @dataclass(slots=True)
@@ -108,7 +111,7 @@ class ExpressionWriter:
         assert isinstance(value, int) and isinstance(value_type, ty.ElementaryType)
         if forms.held_as_pattern(self.target, value_type):
             value = forms.pattern(value)
-        if self.target.word == 32 and not -_VIPER_LITERAL <= value < _VIPER_LITERAL:
+        if self.target.word == 32 and not -_VIPER_LITERAL < value < _VIPER_LITERAL:
             slot = self.layout.constant(value)
             return Text(f"v[{self.names.name(('const', f'{value & 0xFFFFFFFF:08X}'), slot, str(value))}]")
         return number(value)
@@ -171,12 +174,16 @@ class ExpressionWriter:
         """Python's `//` and `%` round down, the standard's `/` and MOD towards zero (table 29); the divisor is not 0.
 
         Before it is divided, a dividend of the other sign is moved towards the next multiple: (a + b - 1) // b for a
-        negative a and a positive b. No intermediate value leaves the machine word.
+        negative a and a positive b. No intermediate value leaves the machine word, and the one quotient that does, of the
+        lowest number by -1, is not left to the processor: it wraps on some, and ends the program on others.
         """
         (low, _), (divisor_low, divisor_high) = bounds(left), bounds(right)
         a, b = self.value(left), self.value(right)
         if low >= 0 and divisor_low >= 0:
             return infix(a, "//" if name == "div" else "%", b)
+        negated = infix(number(0), "-", a)
+        if divisor_low == divisor_high == -1:
+            return negated if name == "div" else number(0)
         if divisor_low >= 0:
             moved = self._below(a, right)
         elif divisor_high <= 0:
@@ -184,6 +191,8 @@ class ExpressionWriter:
         else:
             moved = _choice(self._below(a, right), infix(b, ">", number(0)), self._above(a, right))
         quotient = infix(infix(a, "+", moved), "//", b)
+        if self.target.word == 32 and low < -_HIGHEST and divisor_low <= -1 <= divisor_high:
+            quotient = _choice(negated, infix(b, "==", number(-1)), quotient)
         return quotient if name == "div" else infix(a, "-", infix(quotient, "*", b))
 
     def _below(self, dividend: Text, divisor: n.Expr) -> Text:
