@@ -182,8 +182,8 @@ class ExpressionWriter:
         if low >= 0 and divisor_low >= 0:
             return infix(a, "//" if name == "div" else "%", b)
         negated = infix(number(0), "-", a)
-        if divisor_low == divisor_high == -1:
-            return negated if name == "div" else number(0)
+        if divisor_low == divisor_high and abs(divisor_low) == 1:
+            return number(0) if name == "mod" else a if divisor_low == 1 else negated
         if divisor_low >= 0:
             moved = self._below(a, right)
         elif divisor_high <= 0:
