@@ -73,30 +73,26 @@ def map_statement_exprs(statement: n.Stmt, rewrite: Rewrite) -> n.Stmt:
 
 
 def map_statement_places(statement: n.Stmt, rewrite: Callable[[n.Place], n.Place]) -> n.Stmt:
-    """The statement with every place in it rewritten, those in its expressions too; inner blocks are left alone."""
-
-    def through(place: n.Place) -> n.Place:
-        if isinstance(place.root, n.Deref):
-            return n.Place(n.Deref(through(place.root.reference)), place.steps, place.type)
-        return rewrite(place)
+    """The statement with every place in it rewritten, those in its expressions too; inner blocks are left alone. What a
+    place is reached by, as an in-out, is up to `rewrite`."""
 
     def in_expr(expr: n.Expr) -> n.Expr:
-        return n.Load(through(expr.place), expr.type) if isinstance(expr, n.Load) else expr
+        return n.Load(rewrite(expr.place), expr.type) if isinstance(expr, n.Load) else expr
 
     statement = map_statement_exprs(statement, in_expr)
     match statement:
         case n.Store(place, value):
-            return n.Store(through(place), value)
+            return n.Store(rewrite(place), value)
         case n.Copy(target, source):
-            return n.Copy(through(target), through(source))
+            return n.Copy(rewrite(target), rewrite(source))
         case n.Compare(local, left, right):
-            return n.Compare(local, through(left), through(right))
+            return n.Compare(local, rewrite(left), rewrite(right))
         case n.Bind(reference, target):
-            return n.Bind(through(reference), through(target))
+            return n.Bind(rewrite(reference), rewrite(target))
         case n.Reset(place, value):
-            return n.Reset(through(place), value)
+            return n.Reset(rewrite(place), value)
         case n.Call(pou, instance) if instance is not None:
-            return n.Call(pou, through(instance))
+            return n.Call(pou, rewrite(instance))
         case _:
             return statement
 
