@@ -22,8 +22,8 @@ _SYMBOLS = {"add": "+", "sub": "-", "mul": "*", "and": "&", "or": "|", "xor": "^
 _HIGHEST = (1 << 31) - 1
 """Of a machine word of 32 bits; of its lowest number there is no negative."""
 _VIPER_LITERAL = 1 << 30
-"""A literal of this size and beyond is an object to a 32-bit viper. (-2^30 would fit, but is read as the negative of one
-that does not.)"""
+"""A literal of this size and beyond is an object to a 32-bit viper. -2^30 would fit, but is read as the negative of one
+that does not."""
 
 
 @dataclass(slots=True)
@@ -174,7 +174,7 @@ class ExpressionWriter:
         """Python's `//` and `%` round down, the standard's `/` and MOD towards zero (table 29); the divisor is not 0.
 
         Before it is divided, a dividend of the other sign is moved towards the next multiple: (a + b - 1) // b for a
-        negative a and a positive b. No intermediate value leaves the machine word, and the one quotient that does, of the
+        negative a and a positive b. No intermediate value leaves the machine word. The one quotient that does, of the
         lowest number by -1, is not left to the processor: it wraps on some, and ends the program on others.
         """
         (low, _), (divisor_low, divisor_high) = bounds(left), bounds(right)
