@@ -15,6 +15,7 @@ from iec2mpy.ir import nodes as n
 from iec2mpy.ir.bounds import bounds
 from iec2mpy.semantics import types as ty
 from iec2mpy.semantics.typed import Pou
+from iec2mpy.syntax.tree import PouKind
 
 _UNROLLED = 4
 """A copy of so many slots is written out."""
@@ -70,6 +71,9 @@ class StatementWriter:
                 self._reset(place, value)
             case n.Call(pou, instance):
                 self._write(f"{self.functions[pou]}({', '.join(self._bases(pou, instance))})")
+            case n.Part(number):
+                function = part_name(self.functions, self.expressions.pou, number)
+                self._write(f"{function}({', '.join(self._own_bases())})")
             case n.Guard(condition, fault, site):
                 self._write(f"if {self.expressions.condition(condition).code}:")
                 self._write(f"    {self._note(site)}")
@@ -197,10 +201,13 @@ class StatementWriter:
     # ----------------------------------------------------------------------------- calls and control
 
     def _bases(self, pou: Pou, instance: n.Place | None) -> list[str]:
-        if instance is None or self.expressions.layout.single_base(pou) is not None:
+        if instance is None:
             return []
         addresses = self.expressions.addresses
         return [addresses.subscript(instance, array).code for array in base_arrays(self.expressions.layout, pou)]
+
+    def _own_bases(self) -> list[str]:
+        return base_parameters(self.expressions.layout, self.expressions.pou)
 
     def _note(self, site: n.Site) -> str:
         return f"v[{self.expressions.names.name(('site',), SITE)}] = {self.sites.number(site)}"
@@ -230,9 +237,22 @@ class StatementWriter:
 
 
 def base_arrays(layout: Layout, pou: Pou) -> list[str]:
-    """The arrays in which an instance has a part: a shared body takes a base in each."""
+    """The arrays in which a shared body takes a base: those in which an instance has a part. A function has no
+    instance, and a body with only one instance knows where that is."""
+    if pou.kind is PouKind.FUNCTION or layout.single_base(pou) is not None:
+        return []
     size = layout.instance_record(pou).size
     return [array for array in ("V", "O") if size.of(array)]
+
+
+def base_parameters(layout: Layout, pou: Pou) -> list[str]:
+    """The names of the bases in the functions of a body."""
+    return [{"V": "b", "O": "p"}[array] for array in base_arrays(layout, pou)]
+
+
+def part_name(functions: dict[Pou, str], pou: Pou, number: int) -> str:
+    """The function with a part of a large body."""
+    return f"{functions[pou]}__{number}"
 
 
 def literal(value: object, single: bool) -> str:

@@ -249,6 +249,13 @@ class Call:
 
 
 @dataclass(frozen=True, slots=True)
+class Part:
+    """Runs statements of this body that stand in a function of their own. Only the backends make parts, from 1."""
+
+    number: int
+
+
+@dataclass(frozen=True, slots=True)
 class Guard:
     """Raises a fault where the condition holds. `fault`: zero, index, range, NULL."""
 
@@ -310,6 +317,7 @@ Stmt = (
     | Bind
     | Reset
     | Call
+    | Part
     | Guard
     | Mark
     | Tick

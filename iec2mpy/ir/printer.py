@@ -41,6 +41,8 @@ def _statement(statement: n.Stmt, indent: str) -> Iterator[str]:
             yield f"{indent}reset {_place(place)}"
         case n.Call(pou, instance):
             yield f"{indent}call {pou.name}" + (f" on {_place(instance)}" if instance else "")
+        case n.Part(number):
+            yield f"{indent}part {number}"
         case n.Guard(condition, fault, site):
             yield f"{indent}fault {fault} if {_expr(condition)}  # {site.span.line}"
         case n.Mark(site):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build.context import FALSE, TRUE, Context
@@ -10,6 +10,9 @@ from iec2mpy.ir.build.expressions import lower_all, lower_expr, stored_type
 from iec2mpy.ir.build.places import check_range, lower_place, outside
 from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
+
+_LARGE = 100
+"""A FOR with more statements than that keeps its control variable in its slot only."""
 
 LowerBlock = Callable[[Context, Iterable[t.Stmt]], None]
 
@@ -85,8 +88,11 @@ def lower_for(context: Context, statement: t.For, lower_block: LowerBlock) -> No
             context.emit(n.SetLocal(go_on, _room(next_value, end, step, upwards)))
         advanced = n.Op("add", next_value, n.Const(step.number, next_value.type), next_value.type)
         context.emit(n.SetLocal(next_value, n.Wrap(advanced, next_value.type)))
-        with context.bound(statement.control, current):
+        if _is_large(statement.body):
             lower_block(context, statement.body)
+        else:
+            with context.bound(statement.control, current):
+                lower_block(context, statement.body)
     context.emit(n.While(TRUE, tuple(body)))
 
 
@@ -170,20 +176,38 @@ def _is_bounded(statement: t.For, start: n.Expr, end: n.Expr, step: n.Const) -> 
     return passes <= _UNCOUNTED_PASSES and not _has(statement.body, t.For, t.While, t.Repeat, through_loops=True)
 
 
+def _is_large(body: Iterable[t.Stmt]) -> bool:
+    """Whether the backends may have to split the body: in several functions it has no locals in common."""
+    return sum(1 for _ in _all(body)) > _LARGE
+
+
+def _all(body: Iterable[t.Stmt]) -> Iterator[t.Stmt]:
+    """The statements, and those inside of them."""
+    for statement in body:
+        yield statement
+        for block in _inner(statement):
+            yield from _all(block)
+
+
+def _inner(statement: t.Stmt) -> list[tuple[t.Stmt, ...]]:
+    match statement:
+        case t.If(branches, otherwise):
+            return [block for _, block in branches] + [otherwise]
+        case t.Case(_, groups, otherwise):
+            return [block for _, block in groups] + [otherwise]
+        case t.For() | t.While() | t.Repeat():
+            return [statement.body]
+        case _:
+            return []
+
+
 def _has(body: Iterable[t.Stmt], *kinds: type, through_loops: bool = False) -> bool:
     """Whether the statements, or those inside of their branches, have one of a kind."""
     for statement in body:
         if isinstance(statement, kinds):
             return True
-        match statement:
-            case t.If(branches, otherwise):
-                inner = [block for _, block in branches] + [otherwise]
-            case t.Case(_, groups, otherwise):
-                inner = [block for _, block in groups] + [otherwise]
-            case t.For() | t.While() | t.Repeat() if through_loops:
-                inner = [statement.body]
-            case _:
-                continue
-        if any(_has(block, *kinds, through_loops=through_loops) for block in inner):
+        if isinstance(statement, (t.For, t.While, t.Repeat)) and not through_loops:
+            continue
+        if any(_has(block, *kinds, through_loops=through_loops) for block in _inner(statement)):
             return True
     return False
