@@ -10,8 +10,8 @@ from iec2mpy.semantics.defaults import default_value
 from iec2mpy.semantics.initial_values import initial_value
 from iec2mpy.semantics.scope import UNKNOWN, GlobalDeclaration, GlobalScope, Scope
 from iec2mpy.semantics.type_specs import holds_instance, resolve_type
-from iec2mpy.semantics.typed import Pou, Value, Variable
-from iec2mpy.semantics.types import AliasType, ArrayType, BlockType, StructType, Type, unaliased
+from iec2mpy.semantics.typed import EdgeInput, Pou, Value, Variable
+from iec2mpy.semantics.types import BOOL, AliasType, ArrayType, BlockType, StructType, Type, unaliased
 from iec2mpy.source.diagnostics import Related
 from iec2mpy.source.spans import Span
 from iec2mpy.source.suggest import suggest
@@ -159,6 +159,7 @@ def _declare(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tree
     if t is not UNKNOWN and not _may_hold(scope, pou, section, declaration, t):
         t = UNKNOWN
     initial = _initial(scope, section, declaration, t)
+    may_have_edge = _may_have_edge(scope, pou, section, declaration, t)
     for name in declaration.names:
         if name.key in scope.locals:
             report_duplicate(scope.world, name, scope.locals[name.key].span)
@@ -167,6 +168,8 @@ def _declare(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tree
         variable.owner = pou
         pou.variables[name.key] = variable
         scope.locals[name.key] = variable
+        if declaration.edge is not None and may_have_edge:
+            _add_edge(pou, variable, declaration.edge)
         if t is not UNKNOWN and isinstance(unaliased(t), BlockType):
             _check_instance_name(scope, pou, name)
         if section.section is Section.EXTERNAL:
@@ -194,6 +197,35 @@ def _initial(scope: Scope, section: tree.VarSection, declaration: tree.VarDecl, 
     if section.section in (Section.EXTERNAL, Section.IN_OUT):
         return default_value(t) if t is not UNKNOWN else 0
     return initial_value(scope, t, declaration.initial)
+
+
+# ------------------------------------------------------------------------------------------------------ edges
+
+
+def _may_have_edge(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tree.VarDecl, t: Type) -> bool:
+    """Whether R_EDGE or F_EDGE is right here: only at a BOOL input of what keeps its values (6.6.3.2)."""
+    if declaration.edge is None or t is UNKNOWN:
+        return False
+    word = declaration.edge.value
+    if t is not BOOL:
+        why = f"{word} goes with BOOL, and this is {t}"
+    elif section.section is not Section.INPUT:
+        why = f"{word} goes with VAR_INPUT, and this is {section.section.value}"
+    elif pou.kind is PouKind.FUNCTION:
+        why = f"a FUNCTION keeps nothing between calls: it cannot have {word}"
+    else:
+        return True
+    hint = "Find the edge with an instance of R_TRIG or F_TRIG in a PROGRAM or FUNCTION_BLOCK."
+    scope.diagnostics.add("E0710", f"{why[0].upper()}{why[1:]}.", declaration.span, hint)
+    return False
+
+
+def _add_edge(pou: Pou, variable: Variable, edge: tree.Edge) -> None:
+    """The memory of the edge; no name of a program can be that of it, as none has two `_` in a row (6.1.2)."""
+    name = f"__{variable.name}"
+    memory = Variable(name, BOOL, Section.VAR, variable.span, 0, retain=variable.retain, owner=pou)
+    pou.variables[memory.key] = memory
+    pou.edges.append(EdgeInput(variable, edge, memory))
 
 
 # -------------------------------------------------------------------------------------------------- instances

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from iec2mpy.semantics.types import Type
 from iec2mpy.source.spans import Span
-from iec2mpy.syntax.tree import PouKind, Section
+from iec2mpy.syntax.tree import Edge, PouKind, Section
 
 Scalar = int | float | str
 """A value as it is stored: BOOL 0 or 1, integers, bit strings and enumerations their (mathematical) number, TIME
@@ -49,6 +49,16 @@ class Variable:
         return self.name.casefold()
 
 
+@dataclass(frozen=True, slots=True)
+class EdgeInput:
+    """An input that the body sees TRUE only in the execution of an edge. `memory` is the variable that keeps what it
+    was: TRUE where the edge was already there."""
+
+    input: Variable
+    edge: Edge
+    memory: Variable
+
+
 @dataclass(eq=False, slots=True)
 class Pou:
     """A program organization unit. `variables` in order of declaration, by case-folded name.
@@ -61,6 +71,7 @@ class Pou:
     span: Span
     variables: dict[str, Variable] = field(default_factory=dict)
     result: Variable | None = None
+    edges: list[EdgeInput] = field(default_factory=list)
     body: tuple[Stmt, ...] = ()
 
     @property

@@ -220,10 +220,9 @@ def variable(values: list[Any], _diagnostics: Diagnostics) -> tree.VarDecl:
 
 
 @action
-def edge_variable(values: list[Any], diagnostics: Diagnostics) -> tree.VarDecl:
+def edge_variable(values: list[Any], _diagnostics: Diagnostics) -> tree.VarDecl:
     names, _, type_spec, edge, _ = values
-    not_supported("E0909", f"Inputs with an edge (`{edge.text}`) are", edge.span, diagnostics)
-    return tree.VarDecl(tuple(names), None, type_spec, None, over(names[0], edge))
+    return tree.VarDecl(tuple(names), None, type_spec, None, over(names[0], edge), tree.Edge(edge.type))
 
 
 @action

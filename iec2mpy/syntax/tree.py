@@ -422,15 +422,24 @@ class Retention(Enum):
     NON_RETAIN = "NON_RETAIN"
 
 
+class Edge(Enum):
+    """Which change of an input its block sees (6.6.3.5.3)."""
+
+    RISING = "R_EDGE"
+    FALLING = "F_EDGE"
+
+
 @dataclass(frozen=True, slots=True)
 class VarDecl:
-    """`a, b AT %IX0.0 : TYPE := initial`. `names` is empty for `AT %IX0.0 : BOOL` without a name."""
+    """`a, b AT %IX0.0 : TYPE := initial`, or `a, b : BOOL R_EDGE`. `names` is empty for `AT %IX0.0 : BOOL` without a
+    name."""
 
     names: tuple[Name, ...]
     location: DirectVariable | None
     type: TypeSpec
     initial: Initial | None
     span: Span
+    edge: Edge | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -216,3 +216,21 @@ def test_globals_need_external() -> None:
     _, diagnostics = check_text(text)
     assert [d.code for d in diagnostics.items] == ["E0201"]
     assert "VAR_EXTERNAL" in (diagnostics.items[0].hint or "")
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("FUNCTION_BLOCK b\nVAR_INPUT x : INT R_EDGE; END_VAR\nEND_FUNCTION_BLOCK", 2),
+        ("FUNCTION_BLOCK b\nVAR_OUTPUT x : BOOL F_EDGE; END_VAR\nEND_FUNCTION_BLOCK", 2),
+        ("FUNCTION_BLOCK b\nVAR x : BOOL F_EDGE; END_VAR\nEND_FUNCTION_BLOCK", 2),
+        ("FUNCTION f\nVAR_INPUT x : BOOL R_EDGE; END_VAR\nEND_FUNCTION", 2),
+    ],
+)
+def test_edges_belong_to_inputs_of_blocks_and_programs(text: str, line: int) -> None:
+    assert codes(text) == [("E0710", line)]
+
+
+def test_one_edge_for_each_name() -> None:
+    block = checked("FUNCTION_BLOCK b\nVAR_INPUT x, y : BOOL R_EDGE; END_VAR\nEND_FUNCTION_BLOCK").pous[0]
+    assert [(edge.input.name, edge.memory.owner) for edge in block.edges] == [("x", block), ("y", block)]

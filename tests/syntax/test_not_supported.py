@@ -38,7 +38,6 @@ def _body(text: str) -> str:
         (_body("VAR a AT %I* : BOOL; END_VAR"), [("E0908", 2)]),
         ("CONFIGURATION c\nPROGRAM p : m;\nVAR_CONFIG\nr.p.x AT %IX0.0 : BOOL;\nEND_VAR\nEND_CONFIGURATION",
          [("E0908", 3)]),
-        (_body("VAR_INPUT a : BOOL R_EDGE; END_VAR"), [("E0909", 2)]),
         ("TYPE S : STRUCT OVERLAP a AT %B0 : INT; END_STRUCT; END_TYPE", [("E0910", 1), ("E0910", 1)]),
         (_body("VAR_IN_OUT a : ARRAY[*, *] OF INT; END_VAR"), [("E0911", 2), ("E0911", 2)]),
         ("FUNCTION f\nVAR_INPUT EN : BOOL; END_VAR\nEND_FUNCTION", [("E0912", 2)]),

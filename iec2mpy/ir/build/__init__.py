@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build.context import Context
+from iec2mpy.ir.build.edges import find_edge
 from iec2mpy.ir.build.places import storage_place
 from iec2mpy.ir.build.statements import lower_block
 from iec2mpy.ir.build.stores import assign_initial
@@ -40,6 +41,8 @@ def _build_body(pou: t.Pou) -> n.Body:
     context = Context(pou)
     for variable in _fresh_variables(pou):
         assign_initial(context, storage_place(variable))
+    for edge in pou.edges:
+        find_edge(context, edge)
     lower_block(context, pou.body)
     return n.Body(pou, context.statements, context.locals, tuple(context.hidden))
 

@@ -20,7 +20,8 @@ class Context:
     """Collects the statements of one POU. The block that is open receives what is emitted.
 
     `depth`: how many expressions stand around the one that is being lowered. `controls`: control variables of the loops
-    around, with their values. `instance`: one that was called, with its place (`called`)."""
+    around, with their values. `edges`: what the body reads in place of an input with an edge. `instance`: one that was
+    called, with its place (`called`)."""
 
     def __init__(self, pou: t.Pou) -> None:
         self.pou = pou
@@ -28,6 +29,7 @@ class Context:
         self.locals = 0
         self.depth = 0
         self.controls: dict[t.Variable, n.Local] = {}
+        self.edges: dict[t.Variable, n.Place] = {}
         self.instance: tuple[t.Expr, n.Place] | None = None
         self._block: list[n.Stmt] = []
         self._span = pou.span

@@ -41,6 +41,8 @@ def lower_place(context: Context, expr: t.Expr, lower_expr: LowerExpr) -> n.Plac
     if context.instance is not None and expr is context.instance[0]:
         return context.instance[1]
     match expr:
+        case t.VariableRef(variable) if variable in context.edges:
+            return context.edges[variable]
         case t.VariableRef(variable) | t.DirectRef(variable):
             return variable_place(variable)
         case t.FieldRef(base, variable):
