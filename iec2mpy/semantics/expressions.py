@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from iec2mpy.semantics import calls, operators
+from iec2mpy.semantics import arithmetic, calls, operators
 from iec2mpy.semantics.coercion import typed_literal
 from iec2mpy.semantics.literals import literal
 from iec2mpy.semantics.names import enumerated_value, is_enumerated, is_nothing_else, qualified_value, unknown_value
 from iec2mpy.semantics.references import Use, reference
 from iec2mpy.semantics.scope import Scope
-from iec2mpy.semantics.typed import Constant, Expr, VariableRef
+from iec2mpy.semantics.typed import Constant, Expr, PartRef, VariableRef
 from iec2mpy.semantics.types import EnumType, Type, base_type, unaliased, value_type
 from iec2mpy.syntax import tree
 
@@ -47,6 +47,10 @@ def _name(scope: Scope, expr: tree.NameExpr, expected: Type | None) -> Expr | No
 
 def _variable(scope: Scope, expr: tree.Expr, expected: Type | None) -> Expr | None:
     found = reference(scope, expr, Use.READ)
+    if isinstance(found, PartRef) and isinstance(found.base, VariableRef) and found.base.variable.constant:
+        whole = found.base.variable.initial
+        assert isinstance(whole, int)
+        return Constant(arithmetic.wrap(whole >> found.low, found.type), found.type, expr.span)
     if not isinstance(found, VariableRef) or not found.variable.constant:
         return found
     value = found.variable.initial
@@ -103,7 +107,7 @@ _CHECKERS: Mapping[type, Callable[..., Expr | None]] = {
     tree.TypedEnumValue: _typed_enum_value,
     tree.DirectVariable: _variable,
     tree.MemberExpr: _variable,
-    tree.PartExpr: _not_yet("Access to a part of a bit string (`x.%X3`)"),
+    tree.PartExpr: _variable,
     tree.IndexExpr: _variable,
     tree.DerefExpr: _not_yet("Following a reference (`x^`)"),
     tree.CallExpr: _call,

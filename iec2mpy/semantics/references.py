@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from enum import Enum
 
-from iec2mpy.semantics import addresses, declarations, expressions
+from iec2mpy.semantics import addresses, declarations, expressions, parts
 from iec2mpy.semantics.coercion import describe, typed_literal
 from iec2mpy.semantics.conversions import is_integer
 from iec2mpy.semantics.names import unknown_name
@@ -47,8 +47,8 @@ def reference(scope: Scope, expr: tree.Expr, use: Use) -> Expr | None:
 
 
 def _no_variable(scope: Scope, expr: tree.Expr, use: Use) -> None:
-    if isinstance(expr, (tree.PartExpr, tree.DerefExpr)):
-        expressions.check(scope, expr)  # reports them as not supported yet
+    if isinstance(expr, tree.DerefExpr):
+        expressions.check(scope, expr)  # reports it as not supported yet
         return
     if use is Use.IN_OUT:
         scope.diagnostics.add(
@@ -319,4 +319,5 @@ _FINDERS: Mapping[type, Callable[..., Expr | None]] = {
     tree.DirectVariable: _direct,
     tree.MemberExpr: _member,
     tree.IndexExpr: _element,
+    tree.PartExpr: parts.part,
 }

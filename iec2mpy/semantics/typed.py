@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from iec2mpy.semantics.types import Type
+from iec2mpy.semantics.types import ElementaryType, Type
 from iec2mpy.source.spans import Span
 from iec2mpy.syntax.tree import Edge, PouKind, Section
 
@@ -172,6 +172,16 @@ class ElementRef:
 
 
 @dataclass(frozen=True, slots=True)
+class PartRef:
+    """A part of a bit string (table 17): as many bits as `type` has, from bit `low` of the variable `base` on."""
+
+    base: Expr
+    low: int
+    type: ElementaryType
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Convert:
     """From the operand's type to `type`; implicit ones (figure 12) and X_TO_Y alike. `truncate` is TRUNC."""
 
@@ -258,7 +268,17 @@ class FunctionCall:
 
 
 Expr = (
-    Constant | VariableRef | DirectRef | FieldRef | ElementRef | Convert | Unary | Binary | BuiltinCall | FunctionCall
+    Constant
+    | VariableRef
+    | DirectRef
+    | FieldRef
+    | ElementRef
+    | PartRef
+    | Convert
+    | Unary
+    | Binary
+    | BuiltinCall
+    | FunctionCall
 )
 
 # ------------------------------------------------------------------------------------------- statements

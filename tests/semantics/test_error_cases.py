@@ -17,7 +17,7 @@ _NOT_YET = "E09"
 # how many cases of each part end with "not supported yet": a number that only falls
 _OUT_OF_SCOPE = {
     "error": {"part1": 8, "part2": 8, "part3": 69, "part4": 33, "part5": 31},
-    "steps": {"part1": 57, "part2": 108, "part3": 109, "part4": 104, "part5": 101},
+    "steps": {"part1": 57, "part2": 102, "part3": 109, "part4": 104, "part5": 101},
 }
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build import expressions
 from iec2mpy.ir.build.context import Context
-from iec2mpy.ir.build.places import lower_place, storage_place
+from iec2mpy.ir.build.places import fixed, lower_place, storage_place
 from iec2mpy.ir.build.stores import assign, assign_initial
 from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
@@ -36,18 +36,11 @@ def call_function(context: Context, call: t.FunctionCall) -> n.Place | None:
 
 def call_block(context: Context, call: t.CallBlock) -> None:
     """Invokes an instance: its inputs keep their values unless they are given (6.6.3.4.1)."""
-    instance = _fixed(context, lower_place(context, call.instance, expressions.lower_expr))
+    instance = fixed(context, lower_place(context, call.instance, expressions.lower_expr))
     _pass_arguments(context, call.arguments, instance.root, instance.steps)
     context.emit(n.Call(call.block, instance))
     with context.called(call.instance, instance):
         _take_outputs(context, call.arguments)
-
-
-def _fixed(context: Context, place: n.Place) -> n.Place:
-    """The place with its subscripts worked out here and now, once."""
-    root = n.Deref(_fixed(context, place.root.reference)) if isinstance(place.root, n.Deref) else place.root
-    steps = tuple(n.Element(context.kept(s.index)) if isinstance(s, n.Element) else s for s in place.steps)
-    return n.Place(root, steps, place.type)
 
 
 def _pass_arguments(
@@ -73,7 +66,7 @@ def _pass_arguments(
                 values, wholes = [*context.settle(mark, values), lowered], context.settle_wholes(mark, wholes)
                 stores.append((own, argument))
             case t.InOutArgument(_, target):
-                place = _fixed(context, lower_place(context, target, expressions.lower_expr))
+                place = fixed(context, lower_place(context, target, expressions.lower_expr))
                 values, wholes = context.settle(mark, values), context.settle_wholes(mark, wholes)
                 bindings.append(n.Bind(own, place))
             case t.OutputArgument():

@@ -7,7 +7,8 @@ from iec2mpy.ir.build import calls
 from iec2mpy.ir.build.builtins import lower_builtin, power
 from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.conversions import convert, real_result
-from iec2mpy.ir.build.places import lower_place
+from iec2mpy.ir.build.parts import read_part, with_part
+from iec2mpy.ir.build.places import fixed, lower_place
 from iec2mpy.ir.build.stores import assign
 from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
@@ -36,6 +37,8 @@ def _lower(context: Context, expr: t.Expr) -> n.Expr:
             return context.controls[variable]
         case t.VariableRef() | t.DirectRef() | t.FieldRef() | t.ElementRef():
             return n.Load(lower_place(context, expr, lower_expr), stored_type(expr.type))
+        case t.PartRef(base, low, part):
+            return read_part(lower_expr(context, base), low, part)
         case t.Convert(operand):
             return convert(context, lower_expr(context, operand), stored_type(expr.type), expr.truncate)
         case t.Unary(operator, operand):
@@ -64,6 +67,9 @@ def lower_aggregate(context: Context, expr: t.Expr) -> n.Place:
 
 def assign_expr(context: Context, target: t.Expr, value: t.Expr) -> None:
     """`target := value`, for single values and whole arrays and structures. The target's subscripts come first."""
+    part = target if isinstance(target, t.PartRef) else None
+    if part is not None:
+        target = part.base
     place = lower_place(context, target, lower_expr)
     mark = context.mark()
     assert target.type is not None
@@ -72,7 +78,11 @@ def assign_expr(context: Context, target: t.Expr, value: t.Expr) -> None:
         context.emit(n.Copy(context.settle_place(mark, place), source))
     else:
         lowered = lower_expr(context, value)
-        assign(context, context.settle_place(mark, place), target.type, lowered)
+        place = context.settle_place(mark, place)
+        if part is not None:
+            place = fixed(context, place)
+            lowered = with_part(n.Load(place, stored_type(target.type)), part.low, lowered)
+        assign(context, place, target.type, lowered)
 
 
 def lower_all(context: Context, exprs: tuple[t.Expr, ...]) -> list[n.Expr]:

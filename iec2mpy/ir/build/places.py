@@ -57,6 +57,13 @@ def lower_place(context: Context, expr: t.Expr, lower_expr: LowerExpr) -> n.Plac
             raise AssertionError(f"not a variable: {expr}")
 
 
+def fixed(context: Context, place: n.Place) -> n.Place:
+    """The place with its subscripts worked out here and now, once."""
+    root = n.Deref(fixed(context, place.root.reference)) if isinstance(place.root, n.Deref) else place.root
+    steps = tuple(n.Element(context.kept(s.index)) if isinstance(s, n.Element) else s for s in place.steps)
+    return n.Place(root, steps, place.type)
+
+
 def _flat_index(context: Context, array: ty.Type, indices: tuple[t.Expr, ...], lower_expr: LowerExpr) -> n.Expr:
     """The element's number from 0: rows first (6.4.4.5.1)."""
     assert isinstance(array, ty.ArrayType)
