@@ -17,7 +17,7 @@ from iec2mpy.syntax.tree import PouKind, Retention
 
 _MICROSECONDS = 1000
 """In a millisecond, the unit of TIME."""
-_MAX_PRIORITY = 65_535
+MAX_PRIORITY = 65_535
 
 
 def tasks_and_programs(world: GlobalScope, interval_us: int) -> tuple[list[Task], list[ProgramInstance]]:
@@ -127,8 +127,8 @@ def _priority(world: GlobalScope, argument: tree.Argument | None) -> int:
     if found is None:
         return 0
     value, expr = found
-    if not (value.type is UNTYPED_INT or is_integer(value.type)) or not 0 <= int(value.value) <= _MAX_PRIORITY:
-        world.diagnostics.add("E0802", f"A PRIORITY is a number from 0 (most urgent) to {_MAX_PRIORITY}.", expr.span)
+    if not (value.type is UNTYPED_INT or is_integer(value.type)) or not 0 <= int(value.value) <= MAX_PRIORITY:
+        world.diagnostics.add("E0802", f"A PRIORITY is a number from 0 (most urgent) to {MAX_PRIORITY}.", expr.span)
         return 0
     return int(value.value)
 

@@ -35,7 +35,7 @@ from iec2mpy.syntax import tree
 
 _NAMED_KINDS = INTEGER_KINDS | {Kind.BITS}
 """What named values may be made of (11.2a)."""
-_MAX_ELEMENTS = 32_000
+MAX_ELEMENTS = 32_000
 """More elements than any board has room for: 4 bytes each."""
 
 
@@ -240,7 +240,7 @@ def _array(scope: Scope, spec: tree.ArraySpec, name: str | None) -> Type:
     if element is UNKNOWN:
         return UNKNOWN
     t = ArrayType(element, tuple(bounds))
-    if _count(t) > _MAX_ELEMENTS:
+    if _count(t) > MAX_ELEMENTS:
         scope.diagnostics.add("E0512", f"An array of {_count(t)} elements is too large for a controller.", spec.span)
         return UNKNOWN
     return t

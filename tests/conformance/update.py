@@ -1,4 +1,4 @@
-"""Writes not_covered.toml anew from a run of all cases: `python -m tests.conformance.update`.
+"""Writes not_covered.toml and docs/conformance.md anew from a run of all cases: `python -m tests.conformance.update`.
 
 A case whose program has a construct that is not supported yet is listed under the compiler's own words for it. Any
 other case that does not pass is listed under what went wrong; such a group is a fault to be mended, or a correction of
@@ -14,6 +14,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 from iec2mpy.backends.target import ENGINE_TARGETS
 from iec2mpy.simulator.case_runner import PASSED, Outcome, run_case
+from tests.conformance import statement
 from tests.conformance.suite import NOT_COVERED, PARTS, CaseKey, all_cases
 
 _HEAD = """\
@@ -58,6 +59,7 @@ def main(keys: Iterable[CaseKey]) -> None:
         results = dict(pool.map(_run, keys, chunksize=16))
     reasons = {key: why for key, why in results.items() if why is not None}
     NOT_COVERED.write_text(as_toml(reasons), encoding="utf-8")
+    statement.write()
     print(f"{len(results) - len(reasons)} cases are covered, {len(reasons)} are not yet: {NOT_COVERED}")
 
 
