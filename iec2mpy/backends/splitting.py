@@ -66,13 +66,15 @@ class _Splitter:
         """The block with parts in place of runs of statements, each run as long as a function may be."""
         result: list[n.Stmt] = []
         run: list[n.Stmt] = []
+        size = 0
         for piece in _pieces(block):
-            closed = self._is_closed(piece)
-            if run and (not closed or _count((*run, *piece)) > MAX_STATEMENTS):
+            closed, count = self._is_closed(piece), _count(piece)
+            if not closed or size + count > MAX_STATEMENTS:
                 result += self._outlined(tuple(run))
-                run = []
+                run, size = [], 0
             if closed:
                 run += piece
+                size += count
             else:
                 result += piece
         return (*result, *self._outlined(tuple(run)))

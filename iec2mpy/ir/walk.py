@@ -131,6 +131,15 @@ def statements(block: n.Block) -> Iterator[n.Stmt]:
                 pass
 
 
+def reached(module: n.Module) -> list[n.Body]:
+    """The bodies that the programs still reach by calls; the others were inlined wherever they were called."""
+    found = {run.pou for run in module.programs}
+    for pou, body in reversed(module.bodies.items()):
+        if pou in found:
+            found |= {s.pou for s in statements(body.block) if isinstance(s, n.Call)}
+    return [body for pou, body in module.bodies.items() if pou in found]
+
+
 def set_local(statement: n.Stmt) -> n.Local | None:
     """The local that a statement sets."""
     return statement.local if isinstance(statement, (n.SetLocal, n.Compare)) else None

@@ -38,9 +38,10 @@ def inline(module: Module) -> Module:
 def _inline_calls(body: n.Body, done: dict[Pou, n.Body], calls: Counter[Pou]) -> n.Body:
     size = _size(body.block)
     used = body.locals
+    inlined = False
 
     def in_block(block: n.Block) -> n.Block:
-        nonlocal size, used
+        nonlocal size, used, inlined
         result: list[n.Stmt] = []
         for statement in block:
             match statement:
@@ -49,6 +50,7 @@ def _inline_calls(body: n.Body, done: dict[Pou, n.Body], calls: Counter[Pou]) ->
                 case n.While(condition, inner):
                     result.append(n.While(condition, in_block(inner)))
                 case n.Call(pou) if (code := _code_of(done[pou], statement, calls, LARGEST - size)) is not None:
+                    inlined = True
                     size += _size(code)
                     result += _placed(code, statement, used, _taken_bindings(result, statement))
                     used += done[pou].locals
@@ -56,7 +58,8 @@ def _inline_calls(body: n.Body, done: dict[Pou, n.Body], calls: Counter[Pou]) ->
                     result.append(statement)
         return tuple(result)
 
-    return replace(body, block=in_block(body.block), locals=used)
+    block = in_block(body.block)
+    return replace(body, block=block, locals=used) if inlined else body
 
 
 def _code_of(callee: n.Body, call: n.Call, calls: Counter[Pou], room: int) -> n.Block | None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import TypeVar
 
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.bounds import Bounds, bounds
@@ -16,7 +15,6 @@ from iec2mpy.ir.walk import map_statement_exprs, may_fault, statements
 from iec2mpy.semantics import types as ty
 from iec2mpy.semantics.typed import Pou
 
-_Key = TypeVar("_Key")
 _MIRRORED = {"lt": "gt", "gt": "lt", "le": "ge", "ge": "le", "eq": "eq", "ne": "ne"}
 _NEGATED = {"lt": "ge", "ge": "lt", "le": "gt", "gt": "le", "eq": "ne", "ne": "eq"}
 
@@ -27,15 +25,20 @@ class _Facts:
 
     pou: Pou
     locals: dict[int, Bounds] = field(default_factory=dict)
-    variables: dict[n.Place, Bounds] = field(default_factory=dict)
+    variables: dict[int, Bounds] = field(default_factory=dict)
+    numbers: dict[n.Place, int] = field(default_factory=dict)
+    """Of the places in `variables`: to hash a place takes time, and facts are copied and compared at each branch."""
 
     def copy(self) -> _Facts:
-        return _Facts(self.pou, dict(self.locals), dict(self.variables))
+        return _Facts(self.pou, dict(self.locals), dict(self.variables), self.numbers)
 
     def of(self, expr: n.Expr) -> Bounds | None:
         if isinstance(expr, n.Local):
             return self.locals.get(expr.number)
-        return self.variables.get(expr.place) if isinstance(expr, n.Load) else None
+        return self.variables.get(self.numbers.get(expr.place, -1)) if isinstance(expr, n.Load) else None
+
+    def number(self, place: n.Place) -> int:
+        return self.numbers.setdefault(place, len(self.numbers))
 
     def learn(self, expr: n.Expr, low: int, high: int) -> None:
         """The expression, a local or a plain variable, is inside of bounds."""
@@ -46,7 +49,7 @@ class _Facts:
         if isinstance(expr, n.Local):
             self.locals[expr.number] = found
         elif isinstance(expr, n.Load) and _is_plain(expr.place, self.pou):
-            self.variables[expr.place] = found
+            self.variables[self.number(expr.place)] = found
 
     def meet(self, other: _Facts) -> None:
         """Keeps what holds on both ways to here."""
@@ -54,10 +57,11 @@ class _Facts:
         self.variables = _met(self.variables, other.variables)
 
 
-def _met(first: dict[_Key, Bounds], second: dict[_Key, Bounds]) -> dict[_Key, Bounds]:
+def _met(first: dict[int, Bounds], second: dict[int, Bounds]) -> dict[int, Bounds]:
     return {
-        key: (min(first[key][0], second[key][0]), max(first[key][1], second[key][1]))
-        for key in first.keys() & second.keys()
+        key: one if one == other else (min(one[0], other[0]), max(one[1], other[1]))
+        for key, one in first.items()
+        if (other := second.get(key)) is not None
     }
 
 
@@ -86,7 +90,7 @@ def _statement(statement: n.Stmt, facts: _Facts) -> n.Stmt:
         case n.Store(place, value):
             _forget(place, facts)
             if _is_integer(value) and _is_plain(place, facts.pou):
-                facts.variables[place] = bounds(value, facts.of)
+                facts.variables[facts.number(place)] = bounds(value, facts.of)
         case n.Copy(place) | n.Reset(place):
             _forget(place, facts)
         case n.Call():
@@ -139,7 +143,7 @@ def _forget(place: n.Place, facts: _Facts) -> None:
     if isinstance(place.root, n.Deref) or _may_be_own(place, facts.pou) or ty.value_type(place.type) is None:
         facts.variables.clear()
     else:
-        facts.variables.pop(place, None)
+        facts.variables.pop(facts.number(place), None)
 
 
 def _is_plain(place: n.Place, pou: Pou) -> bool:
