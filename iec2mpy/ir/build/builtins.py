@@ -30,8 +30,14 @@ def power(context: Context, base: n.Expr, exponent: n.Expr, result: n.ValueType)
 def _intrinsic(context: Context, name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
     if INTRINSICS[name].faults:
         context.emit(n.Mark(context.site))
-    value = n.Intrinsic(name, tuple(arguments), result)
-    return fit_string(value, result) if isinstance(result, ty.StringType) else value
+    if not isinstance(result, ty.StringType):
+        return n.Intrinsic(name, tuple(arguments), result)
+    return fit_string(n.Intrinsic(name, tuple(arguments), ty.StringType(_longest(arguments))), result)
+
+
+def _longest(arguments: Sequence[n.Expr]) -> int:
+    """How long a string that is made of others can be: no function repeats one."""
+    return sum(a.type.length for a in arguments if isinstance(a.type, ty.StringType))
 
 
 def _now(_context: Context, _name: str, _arguments: list[n.Expr], result: n.ValueType) -> n.Expr:

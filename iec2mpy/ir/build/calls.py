@@ -26,12 +26,7 @@ def call_function(context: Context, call: t.FunctionCall) -> n.Place | None:
     _take_outputs(context, call.arguments)
     if function.result is None:
         return None
-    result = storage_place(function.result)
-    if ty.value_type(result.type) is not None:
-        return result
-    kept = context.new_hidden(result.type)
-    context.emit(n.Copy(kept, result))
-    return kept
+    return storage_place(function.result)
 
 
 def call_block(context: Context, call: t.CallBlock) -> None:

@@ -19,6 +19,8 @@ _TO_STRING = {
     Kind.REAL: "real_to_str",
     Kind.DURATION: "time_to_str",
 }
+_LONGEST_NUMBER = 30
+"""No number, truth value or duration has more characters than that."""
 _BITS = (Kind.BOOL, Kind.BITS)
 _UNSIGNED = {1: ty.BOOL, 8: ty.BYTE, 16: ty.WORD, 32: ty.DWORD}
 
@@ -61,9 +63,9 @@ def _from_real(context: Context, value: n.Expr, target: ty.ElementaryType, trunc
 
 
 def _to_string(value: n.Expr, target: ty.StringType) -> n.Expr:
-    if isinstance(value.type, ty.StringType):
-        return fit_string(value, target)
-    return n.Intrinsic(_TO_STRING[value.type.kind], (value,), target)
+    if not isinstance(value.type, ty.StringType):
+        value = n.Intrinsic(_TO_STRING[value.type.kind], (value,), ty.StringType(_LONGEST_NUMBER))
+    return fit_string(value, target)
 
 
 def _from_string(context: Context, value: n.Expr, target: ty.ElementaryType) -> n.Expr:
@@ -83,6 +85,8 @@ def fit_string(value: n.Expr, target: ty.StringType) -> n.Expr:
     assert isinstance(source, ty.StringType)
     if isinstance(value, n.Const):
         return n.Const(str(value.value)[: target.length], target)
-    if source.length <= target.length and not isinstance(value, n.Intrinsic):
+    if source.length <= target.length:
         return value
+    if isinstance(value, n.Intrinsic) and value.name == "cut":
+        value = value.arguments[0]
     return n.Intrinsic("cut", (value, n.Const(target.length, ty.INT)), target)

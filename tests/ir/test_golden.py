@@ -1,0 +1,17 @@
+"""The IR of each construct, as it is built: what is evaluated, checked and called, and in which order."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.golden import GoldenCase, all_cases, check
+from tests.renderers import RENDERERS
+
+_FOLDER = Path(__file__).parent / "golden"
+
+
+@pytest.mark.parametrize("case", all_cases(_FOLDER))
+def test_golden(case: GoldenCase) -> None:
+    check(case, RENDERERS[_FOLDER])

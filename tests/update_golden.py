@@ -1,0 +1,11 @@
+"""Writes what the golden cases expect anew: `python -m tests.update_golden`. Look at the difference before it is kept."""
+
+from __future__ import annotations
+
+from tests.golden import rewrite
+from tests.renderers import RENDERERS
+
+if __name__ == "__main__":
+    for folder, render in RENDERERS.items():
+        for path in sorted(folder.glob("*.test")):
+            rewrite(path, render)
