@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import struct
 from dataclasses import dataclass, field
 
 from iec2mpy.backends import forms
@@ -10,6 +9,7 @@ from iec2mpy.backends.addresses import Addresses
 from iec2mpy.backends.forms import Binding, Text, call, infix, number
 from iec2mpy.backends.layout import NOW, Layout
 from iec2mpy.backends.names import SlotNames
+from iec2mpy.backends.reals import real_text
 from iec2mpy.backends.target import Target
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.bounds import bounds
@@ -107,7 +107,7 @@ class ExpressionWriter:
             return Text(quoted(str(value)))
         if value_type is ty.REAL:
             assert isinstance(value, (int, float))
-            return real_literal(float(value), self.target.single)
+            return real_text(float(value), self.target, self.names)
         assert isinstance(value, int) and isinstance(value_type, ty.ElementaryType)
         if forms.held_as_pattern(self.target, value_type):
             value = forms.pattern(value)
@@ -253,25 +253,6 @@ _NEGATED = {"eq": "ne", "ne": "eq", "lt": "ge", "ge": "lt", "gt": "le", "le": "g
 
 def _choice(then: Text, condition: Text, otherwise: Text) -> Text:
     return Text(f"{then.at(Binding.OR)} if {condition.code} else {otherwise.code}", Binding.SELECT)
-
-
-def real_literal(value: float, single: bool) -> Text:
-    """A REAL constant. For single precision the shortest text that means it; else all digits of the single value."""
-    if value != value or value in (float("inf"), float("-inf")):
-        return Text(f'float("{value}")')
-    code = repr(value)
-    if single:
-        code = next(t for t in (f"{value:.{digits}g}" for digits in range(6, 18)) if _same_single(float(t), value))
-        if not any(mark in code for mark in ".en"):
-            code += ".0"
-    return Text(code, Binding.UNARY if code.startswith("-") else Binding.ATOM)
-
-
-def _same_single(a: float, b: float) -> bool:
-    try:
-        return struct.pack("<f", a) == struct.pack("<f", b)
-    except OverflowError:
-        return False
 
 
 def quoted(text: str) -> str:

@@ -135,7 +135,7 @@ def load(target: Target, slot: Text, value_type: ty.ElementaryType, low: int) ->
 
 def stored(target: Target, value: Text, value_type: ty.ElementaryType, high: int) -> Text:
     """The value as it is written to a slot of V. `high`: the greatest that it may have."""
-    if target.word == 0 and high >= 1 << 31:
+    if target.word == 0 and value_type.low == 0 and high >= 1 << 31:
         return infix(infix(value, "^", number(1 << 31)), "-", number(1 << 31))
     return value
 

@@ -33,6 +33,7 @@ class SlotNames:
     def __init__(self) -> None:
         self._values: dict[str, int] = {}
         self._comments: dict[str, str] = {}
+        self._reals: dict[int, str] = {}
 
     def name(self, path: tuple[str, ...], value: int, comment: str = "") -> str:
         """The name of the constant `value` for a path such as ("main", "delay", "IN")."""
@@ -45,8 +46,18 @@ class SlotNames:
             self._comments.setdefault(name, comment)
         return name
 
+    def real(self, bits: int, shown: str) -> str:
+        """The name of a REAL constant that has these bits."""
+        self._reals[bits] = shown
+        # names of slots are in capitals
+        return f"_real_{bits:08x}"
+
+    def real_lines(self) -> list[str]:
+        """The definitions of REAL constants; they call `bits_to_real`."""
+        return [f"_real_{bits:08x} = bits_to_real(0x{bits:08X})  # {shown}" for bits, shown in self._reals.items()]
+
     def lines(self) -> list[str]:
-        """The definitions, by value."""
+        """The definitions of slots, by value."""
         rows = sorted(self._values.items(), key=lambda item: (item[1], item[0]))
         return [
             f"{name} = const({value})" + (f"  # {self._comments[name]}" if name in self._comments else "")

@@ -6,6 +6,7 @@ from itertools import groupby
 
 from iec2mpy.backends.forms import pattern
 from iec2mpy.backends.layout import FIRST, FIRST_OBJECT, Layout
+from iec2mpy.backends.names import SlotNames
 from iec2mpy.backends.statements import literal, literals
 from iec2mpy.backends.target import Target
 from iec2mpy.backends.values import flat_values
@@ -14,7 +15,9 @@ _RUN = 8
 """So many equal values in a row are filled in, not listed."""
 
 
-def reset_lines(layout: Layout, target: Target, runtime: dict[str, set[str]]) -> list[str]:
+def reset_lines(
+    layout: Layout, target: Target, names: SlotNames, runtime: dict[str, set[str]]
+) -> list[str]:
     """The text of `reset`; what it needs of the runtime is added to `runtime`."""
     lines = ["", "def reset():", "    # cold start: every variable gets its initial value"]
     for array, first in (("V", FIRST), ("O", FIRST_OBJECT)):
@@ -25,11 +28,13 @@ def reset_lines(layout: Layout, target: Target, runtime: dict[str, set[str]]) ->
         if array == "V":
             for constant, slot in layout.constants.items():
                 values[slot] = pattern(constant)
-        lines += _fills(array, first, values, target, runtime)
+        lines += _fills(array, first, values, target, names, runtime)
     return [*lines, ""]
 
 
-def _fills(array: str, first: int, values: list[object], target: Target, runtime: dict[str, set[str]]) -> list[str]:
+def _fills(
+    array: str, first: int, values: list[object], target: Target, names: SlotNames, runtime: dict[str, set[str]]
+) -> list[str]:
     lines: list[str] = []
     pending: list[object] = []
     start = first
@@ -37,7 +42,7 @@ def _fills(array: str, first: int, values: list[object], target: Target, runtime
     def flush() -> None:
         if pending:
             runtime.setdefault("memory", set()).add("put")
-            lines.append(f"    put({array}, {start}, {literals(pending, target.single)})")
+            lines.append(f"    put({array}, {start}, {literals(pending, target, names)})")
 
     at = first
     for _, group in groupby(values[first:], key=lambda value: (type(value), repr(value))):
@@ -46,7 +51,7 @@ def _fills(array: str, first: int, values: list[object], target: Target, runtime
             flush()
             pending = []
             runtime.setdefault("memory", set()).add("fill")
-            lines.append(f"    fill({array}, {at}, {len(run)}, {literal(run[0], target.single)})")
+            lines.append(f"    fill({array}, {at}, {len(run)}, {literal(run[0], target, names)})")
         else:
             if not pending:
                 start = at

@@ -6,10 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from iec2mpy.backends import forms
-from iec2mpy.backends.expressions import ExpressionWriter, quoted, real_literal
+from iec2mpy.backends.expressions import ExpressionWriter, quoted
 from iec2mpy.backends.forms import Binding, Text, call, infix, number
 from iec2mpy.backends.layout import LOOP, SITE, Layout
+from iec2mpy.backends.names import SlotNames
+from iec2mpy.backends.reals import real_text
 from iec2mpy.backends.sites import Sites
+from iec2mpy.backends.target import Target
 from iec2mpy.backends.values import flat_values
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.bounds import bounds
@@ -184,6 +187,7 @@ class StatementWriter:
         return first, second, left
 
     def _reset(self, place: n.Place, value: object) -> None:
+        written_for = self.expressions.target, self.expressions.names
         for array in ("V", "O"):
             values = flat_values(self.expressions.layout, place.type, value, array)
             if not values:
@@ -191,12 +195,10 @@ class StatementWriter:
             start = self.expressions.addresses.subscript(place, array).code
             if len(set(map(repr, values))) == 1:
                 fill = self.expressions.need("memory", "fill")
-                self._write(
-                    f"{fill}({array}, {start}, {len(values)}, {literal(values[0], self.expressions.target.single)})"
-                )
+                self._write(f"{fill}({array}, {start}, {len(values)}, {literal(values[0], *written_for)})")
             else:
                 put = self.expressions.need("memory", "put")
-                self._write(f"{put}({array}, {start}, {literals(values, self.expressions.target.single)})")
+                self._write(f"{put}({array}, {start}, {literals(values, *written_for)})")
 
     # ----------------------------------------------------------------------------- calls and control
 
@@ -255,18 +257,18 @@ def part_name(functions: dict[Pou, str], pou: Pou, number: int) -> str:
     return f"{functions[pou]}__{number}"
 
 
-def literal(value: object, single: bool) -> str:
+def literal(value: object, target: Target, names: SlotNames) -> str:
     """A stored value as Python text."""
     if isinstance(value, str):
         return quoted(value)
     if isinstance(value, float):
-        return real_literal(value, single).code
+        return real_text(value, target, names).code
     return str(value)
 
 
-def literals(values: list[object], single: bool) -> str:
+def literals(values: list[object], target: Target, names: SlotNames) -> str:
     """Stored values as a tuple."""
-    return f"({', '.join(literal(value, single) for value in values)},)"
+    return f"({', '.join(literal(value, target, names) for value in values)},)"
 
 
 def _moved(subscript: Text, by: int) -> Text:

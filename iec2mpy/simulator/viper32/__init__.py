@@ -38,6 +38,7 @@ The rules, where MicroPython has them (in its folder `py`), and which test in te
 | `except … as` puts None in a local of another type | compile.c `compile_try_except` | refused |
 | a read before the first assignment: a fault | (yields what was in the register) | machine |
 | floats have single precision, folding has double | objfloat.c, parse.c | floats |
+| digits beyond 2^24 or 10^9 are not read exactly: refused | parsenum.c `mp_decimal_exp` | floats |
 | default values, `*`, nested functions, slices, `with`, …: refused | (untried, or they crash) | refused |
 """
 

@@ -7,8 +7,9 @@ from typing import TypeVar
 
 from iec2mpy.simulator.viper32.code import assign, call, constant, is_simple, name, place
 from iec2mpy.simulator.viper32.errors import ViperError
-from iec2mpy.simulator.viper32.floats import COMPARISON, single
+from iec2mpy.simulator.viper32.floats import COMPARISON, is_read_exactly, single
 from iec2mpy.simulator.viper32.functions import translate_function
+from iec2mpy.simulator.viper32.scope import refuse
 
 _DECORATORS = ("bytecode", "native", "viper")
 _Node = TypeVar("_Node", bound=ast.AST)
@@ -59,6 +60,8 @@ class _Translator(ast.NodeTransformer):
         return ast.copy_location(ast.Assign([node.target], self.visit(node.value)), node)
 
     def visit_Constant(self, node: ast.Constant) -> ast.expr:
+        if isinstance(node.value, float) and not is_read_exactly(node.value):
+            refuse(f"the number {node.value}: it is not read exactly in single precision", node)
         return ast.copy_location(constant(single(node.value)), node)
 
     def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.expr:

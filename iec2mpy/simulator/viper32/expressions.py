@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from iec2mpy.simulator.viper32.code import bind, call, choose, compare, constant, is_simple, name, place, subscript
 from iec2mpy.simulator.viper32.errors import ViperError
-from iec2mpy.simulator.viper32.floats import single
+from iec2mpy.simulator.viper32.floats import is_read_exactly, single
 from iec2mpy.simulator.viper32.folding import truth
 from iec2mpy.simulator.viper32.machine import INT_HIGH, INT_LOW, SMALL_HIGH, SMALL_LOW
 from iec2mpy.simulator.viper32.native import binary_operation, comparison, is_decided, mismatch, retype, to_object
@@ -99,6 +99,8 @@ def _constant(node: ast.Constant, scope: Scope) -> Value:
         return immediate(Kind.INT, value)
     if isinstance(value, complex):
         refuse("a complex number", node)
+    if isinstance(value, float) and not is_read_exactly(value):
+        refuse(f"the number {value}: it is not read exactly in single precision", node)
     return an_object(constant(single(value)))
 
 

@@ -10,6 +10,7 @@ import math
 import operator
 from array import array
 from collections.abc import Callable
+from decimal import Decimal
 from typing import Any
 
 _cell = array("f", [0.0])
@@ -22,6 +23,16 @@ def single(value: Any) -> Any:
         _cell[0] = value
         return _cell[0]
     return value
+
+
+def is_read_exactly(literal: float) -> bool:
+    """Whether every MicroPython reads these digits as the nearest single: it takes them times or divided by a power of
+    ten, in single precision, and that rounds only once if both are exact."""
+    if math.isinf(literal):
+        return True
+    _, digits, exponent = Decimal(repr(literal)).normalize().as_tuple()
+    assert isinstance(exponent, int)
+    return int("".join(map(str, digits))) <= 1 << 24 and abs(exponent) <= 9
 
 
 def _as_single(number: float) -> float:

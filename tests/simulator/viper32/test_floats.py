@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from iec2mpy.simulator.viper32 import load
+from iec2mpy.simulator.viper32 import ViperError, load
 from iec2mpy.simulator.viper32.floats import ARITHMETIC, COMPARISON, single
 
 from .texts import PREAMBLE, result
@@ -73,9 +73,21 @@ def test_what_comes_back_is_rounded() -> None:
 
 
 def test_constants_are_folded_in_double_and_then_rounded() -> None:
-    assert result("return 16777216.0 + 1.0 + 1.0", "def f():") == 16777218.0
-    assert result("return 1e39", "def f():") == math.inf
+    assert result("return 16777217.0 - 1.0", "def f():") == 16777216.0
     assert result("o = 0.1\nreturn o", "def f():") == single(0.1)
+
+
+@pytest.mark.parametrize("literal", ["443.221741", "3.14159274", "16777217.0", "1e10", "1e-20", "1e39", "0.1 + 0.2"])
+def test_literals_that_boards_do_not_read_exactly(literal: str) -> None:
+    """443.221741 becomes 443.22177 on a board."""
+    for text in (f"@micropython.viper\ndef f():\n    return {literal}\n", f"x = {literal}\n"):
+        with pytest.raises(ViperError, match="it is not read exactly in single precision"):
+            load("import micropython\n" + text, "d.py")
+
+
+@pytest.mark.parametrize("literal", ["0.0", "443.2217", "1.6777216e7", "9e9", "1e-9", "-16777216e9"])
+def test_literals_that_they_do(literal: str) -> None:
+    assert load(f"x = {literal}\n", "e.py")["x"] == single(float(literal))
 
 
 @pytest.mark.parametrize(
