@@ -46,12 +46,13 @@ class Names:
         return None
 
 
-_ELEMENTARY = ("BOOL", "SINT", "INT", "DINT", "USINT", "UINT", "UDINT", "BYTE", "WORD", "DWORD", "TIME")
+_ELEMENTARY = ("BOOL", "SINT", "INT", "DINT", "USINT", "UINT", "UDINT", "BYTE", "WORD", "DWORD", "TIME", "CHAR")
 
 
 class Place:
-    """One variable. Values: BOOL bool, integers and bit strings int, TIME int (ms), REAL float, STRING str, an
-    enumeration the name of the value. `low` and `high`: of a STRING 0 and its capacity, of a REAL None."""
+    """One variable. Values: BOOL bool, integers and bit strings int, TIME int (ms), REAL float, STRING and WSTRING str,
+    CHAR (a WCHAR too) a str of one character, an enumeration the name of the value. `low` and `high`: of a STRING 0 and
+    its capacity, of a REAL None."""
 
     def __init__(self, path, type_name, array, slot, low, high, members):
         self.path = path
@@ -68,6 +69,8 @@ class Place:
             return stored
         if self.type == "BOOL":
             return stored != 0
+        if self.type == "CHAR":
+            return chr(stored)
         for name, number in self._members.items():
             if number == stored:
                 return name
@@ -82,6 +85,8 @@ class Place:
                 if isinstance(value, str) and name.lower() == value.lower():
                     return number
             raise ValueError("%s is one of %s" % (self.path, ", ".join(self._members)))
+        if self.type == "CHAR":
+            return ord(self._text(value, 1, 1, self.high))
         if isinstance(value, bool):
             if self.type != "BOOL":
                 value = None
@@ -99,8 +104,16 @@ class Place:
             if isinstance(value, bool) or not isinstance(value, (int, float)):
                 raise ValueError("%s is a %s: a number" % (self.path, self.type))
             return f32(float(value))
-        if not isinstance(value, str) or len(value) > self.high:
-            raise ValueError("%s is a %s: a text of at most %d characters" % (self.path, self.type, self.high))
+        return self._text(value, 0, self.high, 0xFFFF if self.type == "WSTRING" else 0xFF)
+
+    def _text(self, value, shortest, longest, highest):
+        """`highest`: the greatest code that a character may have."""
+        if not isinstance(value, str) or not shortest <= len(value) <= longest:
+            size = "one character" if shortest else "at most %d characters" % longest
+            raise ValueError("%s is a %s: a text of %s" % (self.path, self.type, size))
+        for c in value:
+            if ord(c) > highest:
+                raise ValueError("%s: its characters have codes up to %d" % (self.path, highest))
         return value
 
 

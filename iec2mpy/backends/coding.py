@@ -6,6 +6,7 @@ import struct
 from collections.abc import Callable, Mapping
 
 from iec2mpy.backends.forms import pattern
+from iec2mpy.semantics.types import CHAR, WCHAR
 from iec2mpy.syntax.time_literals import value_of
 
 Enum = Mapping[str, int]
@@ -63,12 +64,31 @@ def _encode_duration(value: object, low: int, high: int, _enum: Enum) -> object:
     return _in_range(parse_duration(value), low, high)
 
 
-def _encode_string(value: object, _low: int, high: int, _enum: Enum) -> object:
+def _encode_text(value: object, capacity: int, highest: int) -> str:
+    """`highest`: the greatest code that a character may have."""
     if not isinstance(value, str):
         raise ValueError(f"{value!r} is no string")
-    if len(value) > high:
-        raise ValueError(f"{len(value)} characters are more than {high}")
+    if len(value) > capacity:
+        raise ValueError(f"{len(value)} characters are more than {capacity}")
+    wrong = next((c for c in value if ord(c) > highest), None)
+    if wrong is not None:
+        raise ValueError(f"its characters go up to {highest:#X}, and {wrong!r} is {ord(wrong):#X}")
     return value
+
+
+def _encode_string(value: object, _low: int, high: int, _enum: Enum) -> object:
+    return _encode_text(value, high, CHAR.high)
+
+
+def _encode_wstring(value: object, _low: int, high: int, _enum: Enum) -> object:
+    return _encode_text(value, high, WCHAR.high)
+
+
+def _encode_character(value: object, _low: int, high: int, _enum: Enum) -> object:
+    text = _encode_text(value, 1, high)
+    if not text:
+        raise ValueError("it is one character, and here is none")
+    return ord(text)
 
 
 def _encode_enum(value: object, _low: int, _high: int, enum: Enum) -> object:
@@ -89,6 +109,8 @@ _CODERS: Mapping[str, tuple[Callable[[object, Enum], object], Callable[[object, 
     "real": (lambda raw, _: raw, _encode_real),
     "duration": (lambda raw, _: format_duration(_as_int(raw)), _encode_duration),
     "string": (lambda raw, _: raw, _encode_string),
+    "wstring": (lambda raw, _: raw, _encode_wstring),
+    "character": (lambda raw, _: chr(_as_int(raw)), _encode_character),
     "enum": (_decode_enum, _encode_enum),
 }
 

@@ -12,7 +12,7 @@ from iec2mpy.semantics.typed import Variable
 from iec2mpy.semantics.types import Kind
 from iec2mpy.syntax.tree import PouKind, Section
 
-_KINDS = {Kind.BOOL: "bool", Kind.REAL: "real", Kind.DURATION: "duration", Kind.STRING: "string"}
+_KINDS = {Kind.BOOL: "bool", Kind.REAL: "real", Kind.DURATION: "duration", Kind.CHARACTER: "character"}
 
 
 def make_map(layout: Layout, sites: list[Site], program: str) -> MemoryMap:
@@ -108,7 +108,8 @@ def _leaf(
     stored = ty.value_type(shape)
     assert stored is not None
     if isinstance(stored, ty.StringType):
-        return MappedVariable(path, type_name, "string", "O", at.o, 0, stored.length, dimensions["O"])
+        kind = "wstring" if stored.wide else "string"
+        return MappedVariable(path, type_name, kind, "O", at.o, 0, stored.length, dimensions["O"])
     if stored.in_objects:
         return MappedVariable(path, type_name, _KINDS[stored.kind], "O", at.o, 0, 0, dimensions["O"])
     low, high = ty.value_range(shape) or (stored.low, stored.high)

@@ -86,6 +86,9 @@ class BadValue(ValueError):
     """The variable cannot have this value; the text says what it can have."""
 
 
+_TOLD_BY_NAME = {"bool": "BOOL", "character": "CHAR", "string": "STRING", "wstring": "WSTRING"}
+"""The types that the board tells by their name, by the kind of a variable."""
+
 _TOKEN = re.compile(r"\.?([^.\[\]]+)|\[([^\]]*)\]")
 
 
@@ -285,8 +288,8 @@ class MemoryMap:
             lines.append("\t".join([f"={name}", *(f"{value}:{number}" for value, number in values.items())]))
         for v in self.variables:
             dimensions = ";".join(f"{d.low}:{d.high}:{d.stride}" for d in v.dimensions)
-            bounds = (str(v.low), str(v.high)) if v.array == "V" or v.kind == "string" else ("", "")
-            type_name = "BOOL" if v.kind == "bool" else v.type  # not an alias: the board tells BOOL by its name
+            bounds = ("", "") if v.kind == "real" else (str(v.low), str(v.high))
+            type_name = _TOLD_BY_NAME.get(v.kind, v.type)  # not an alias
             lines.append("\t".join([v.path.casefold(), type_name, v.array, str(v.slot), *bounds, dimensions]))
         lines += ["\t".join([f"@{s.number}", s.file, str(s.line), s.pou]) for s in self.sites]
         return "\n".join(lines) + "\n"

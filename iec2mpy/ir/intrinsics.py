@@ -51,6 +51,12 @@ INTRINSICS: Mapping[str, Runtime] = {
     "DELETE": Runtime("str_delete", "strings"),
     "REPLACE": Runtime("str_replace", "strings"),
     "FIND": Runtime("str_find", "strings"),
+    # characters (6.4.2.2, table 27)
+    "char_to_str": Runtime("chr", module=None),
+    "str_to_char": Runtime("first_character", "characters"),
+    "to_narrow": Runtime("to_narrow", "characters"),
+    "character": Runtime("character", "characters", faults=True),
+    "with_character": Runtime("with_character", "characters", faults=True),
     "int_to_str": Runtime("int_to_str", "strings"),
     "real_to_str": Runtime("real_to_str", "strings"),
     "bool_to_str": Runtime("bool_to_str", "strings"),

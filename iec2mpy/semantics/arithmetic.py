@@ -13,7 +13,7 @@ import struct
 from collections.abc import Callable, Mapping, Sequence
 
 from iec2mpy.semantics.typed import Scalar
-from iec2mpy.semantics.types import DWORD, REAL, TIME, ElementaryType, Kind, StringType
+from iec2mpy.semantics.types import CHAR, DWORD, REAL, TIME, WCHAR, ElementaryType, Kind, StringType
 
 SingleType = ElementaryType | StringType
 """The type of a single value: enumerations, subranges and aliases are reduced to it by `types.value_type`."""
@@ -176,6 +176,19 @@ def _from_text(text: str, to: ElementaryType) -> int:
     return _in_range(_parse_integer(text), to)
 
 
+_UNKNOWN_CHARACTER = "?"
+"""Stands for a character that its target does not have (table 27)."""
+
+
+def _to_text(value: Scalar, source: SingleType, to: StringType) -> str:
+    if isinstance(source, StringType):
+        text = str(value)
+        return text if to.wide else "".join(c if ord(c) <= CHAR.high else _UNKNOWN_CHARACTER for c in text)
+    if source.kind is Kind.CHARACTER:
+        return chr(int(value))
+    return ("FALSE", "TRUE")[int(value)] if source.kind is Kind.BOOL else str(value)
+
+
 def _is_bits(of: ElementaryType) -> bool:
     return of.kind in (Kind.BOOL, Kind.BITS)
 
@@ -184,13 +197,14 @@ def convert(value: Scalar, source: SingleType, to: SingleType, truncate: bool = 
     """A value of type `source` as one of type `to` (table 22).
 
     Numbers keep their value or fault `range`; from and to bit strings the low bits are kept, without sign extension
-    (6.6.2.5.5); REAL and DWORD exchange bit patterns; TIME counts as its milliseconds; a string is cut to its length.
+    (6.6.2.5.5); REAL and DWORD exchange bit patterns; TIME counts as its milliseconds, a character as its code;
+    a string is cut to its length.
     """
     if isinstance(to, StringType):
-        if isinstance(source, ElementaryType):
-            value = ("FALSE", "TRUE")[int(value)] if source.kind is Kind.BOOL else str(value)
-        return str(value)[: to.length]
+        return _to_text(value, source, to)[: to.length]
     if isinstance(source, StringType):
+        if to is source.character:
+            return ord(str(value)[0]) if value else 0
         return _from_text(str(value), to)
     if source is to:
         return value
@@ -201,6 +215,8 @@ def convert(value: Scalar, source: SingleType, to: SingleType, truncate: bool = 
     assert isinstance(value, int)
     if to is REAL:
         return struct.unpack("<f", struct.pack("<I", value))[0] if source is DWORD else to_single(float(value))
+    if source is WCHAR and to is CHAR:
+        return value if value <= CHAR.high else ord(_UNKNOWN_CHARACTER)
     if _is_bits(source) or _is_bits(to):
         return wrap(value & ((1 << source.bits) - 1), to)
     return _in_range(value, to)

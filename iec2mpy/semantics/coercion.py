@@ -60,8 +60,7 @@ def convert(value: Expr, target: Type) -> Expr:
     """`value`, whose type converts implicitly, as one of the base type of `target`."""
     to, source = base_type(target), base_type(value.type)
     if isinstance(to, StringType):
-        assert isinstance(source, StringType)
-        if source.length <= to.length:
+        if isinstance(source, StringType) and source.length <= to.length:
             return value
     elif to is source or not isinstance(to, ElementaryType) or not isinstance(source, ElementaryType):
         return value

@@ -50,7 +50,7 @@ def parse(name: str) -> Conversion | None:
 def is_planned(name: str) -> bool:
     """Whether it converts from or to a type that this compiler does not have yet."""
     match = _PLANNED.fullmatch(name.upper())
-    known = {*ELEMENTARY, *NOT_YET, "STRING"}
+    known = {*ELEMENTARY, *NOT_YET, "STRING", "WSTRING"}
     return match is not None and match[3] in known and (match[1] is None or match[1] in known)
 
 
@@ -90,8 +90,12 @@ def _converted(
     if not converts_explicitly(source, target):
         _no_conversion(scope, call, source, target)
         return None
-    if source is target or (isinstance(source, StringType) and isinstance(target, StringType)):
+    if source is target:
         return value
+    if isinstance(source, StringType) and isinstance(target, StringType):
+        if source.wide == target.wide:
+            return value
+        target = StringType(source.length, target.wide)
     if isinstance(value, Constant):
         return operators.folded(
             scope, lambda: arithmetic.convert(value.value, source, target, conversion.truncate), target, call.span

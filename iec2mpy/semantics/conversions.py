@@ -72,8 +72,9 @@ def same_type(a: Type, b: Type) -> bool:
 def converts_implicitly(source: Type, target: Type) -> bool:
     """Whether a value of type `source` may stand where one of type `target` is needed."""
     source, target = base_type(source), base_type(target)
-    if isinstance(source, StringType):
-        return isinstance(target, StringType)  # of any length: what is too long is cut (6.6.1.2.2)
+    if isinstance(target, StringType):
+        # of any length: what is too long is cut (6.6.1.2.2); a character is a string of one
+        return source is target.character or (isinstance(source, StringType) and source.wide == target.wide)
     if isinstance(source, ElementaryType):
         return source is target or target in _WIDER.get(source, ())
     return same_type(source, target)
@@ -87,6 +88,17 @@ def common_type(a: ElementaryType, b: ElementaryType) -> ElementaryType | None:
     return next((t for t in (a, *_WIDER.get(a, ())) if t in reached), None)
 
 
+def joined_type(a: Type, b: Type) -> Type | None:
+    """The type that values of both types are brought to where one operation or function takes them."""
+    if isinstance(a, ElementaryType) and isinstance(b, ElementaryType):
+        return common_type(a, b)
+    if isinstance(a, StringType) and converts_implicitly(b, a):
+        return b if isinstance(b, StringType) and b.length > a.length else a
+    if isinstance(b, StringType) and converts_implicitly(a, b):
+        return b
+    return a if same_type(a, b) else None
+
+
 def literal_type(value: int) -> ElementaryType | None:
     """The type of an integer literal that no context gives one, or None where no type holds it."""
     return next((t for t in (INT, DINT, UDINT) if t.low <= value <= t.high), None)
@@ -96,12 +108,18 @@ _DIRECT_PATTERN = {(REAL, DWORD), (DWORD, REAL)}
 
 
 def converts_explicitly(source: ElementaryType | StringType, target: ElementaryType | StringType) -> bool:
-    """Whether there is a function SOURCE_TO_TARGET (tables 22 to 25)."""
+    """Whether there is a function SOURCE_TO_TARGET (tables 22 to 25, 27)."""
     if isinstance(source, StringType) or isinstance(target, StringType):
-        other = target if isinstance(source, StringType) else source
-        return isinstance(other, StringType) or other.kind in INTEGER_KINDS or other is BOOL
+        string, other = (source, target) if isinstance(source, StringType) else (target, source)
+        if isinstance(other, StringType) or other.kind in INTEGER_KINDS or other is BOOL:
+            return True
+        return isinstance(string, StringType) and other is string.character
     if source is target or (source, target) in _DIRECT_PATTERN:
         return True
+    if Kind.CHARACTER in (source.kind, target.kind):
+        # a character counts as its code, which is a number or bits
+        other = target if source.kind is Kind.CHARACTER else source
+        return other.kind in INTEGER_KINDS | {Kind.BITS, Kind.CHARACTER}
     # A REAL has no bits to cut or to fill: only DWORD has its width. BOOL counts as the number 0 or 1.
     if REAL in (source, target):
         other = target if source is REAL else source
@@ -116,14 +134,10 @@ def conversion_name(source: Type, target: Type) -> str | None:
         return None
     if is_untyped(source) or not converts_explicitly(source, target):
         return None
-    return f"{_plain_name(source)}_TO_{_plain_name(target)}"
-
-
-def _plain_name(t: ElementaryType | StringType) -> str:
-    return "STRING" if isinstance(t, StringType) else t.name
+    return f"{source.name}_TO_{target.name}"
 
 
 def type_named(name: str) -> ElementaryType | StringType | None:
-    """The elementary type of that name, in any letter case; STRING with its usual length."""
+    """The elementary type of that name, in any letter case; STRING and WSTRING with their usual length."""
     name = name.upper()
-    return StringType() if name == "STRING" else ELEMENTARY.get(name)
+    return StringType(wide=name == "WSTRING") if name in ("STRING", "WSTRING") else ELEMENTARY.get(name)

@@ -32,7 +32,7 @@ def check_typed(scope: Scope, expr: tree.Expr, expected: Type | None = None) -> 
 
 
 def _literal(scope: Scope, expr: tree.Literal, expected: Type | None) -> Expr | None:
-    return literal(scope, expr)
+    return literal(scope, expr, expected)
 
 
 def _name(scope: Scope, expr: tree.NameExpr, expected: Type | None) -> Expr | None:

@@ -9,16 +9,17 @@ from iec2mpy.semantics.arithmetic import to_single, truncating_divide
 from iec2mpy.semantics.conversions import UNTYPED_INT, UNTYPED_REAL, type_named
 from iec2mpy.semantics.scope import Scope
 from iec2mpy.semantics.typed import Constant
-from iec2mpy.semantics.types import BOOL, NOT_YET, REAL, TIME, ElementaryType, Kind, StringType
+from iec2mpy.semantics.types import BOOL, NOT_YET, REAL, TIME, ElementaryType, Kind, StringType, Type, base_type
 from iec2mpy.syntax import tree
 
 _NANOSECONDS = 1_000_000
 """In a millisecond, the unit of TIME."""
-_DATES = {"date": "Dates", "tod": "Times of day", "dt": "Dates with a time", "wstring": "WSTRING literals"}
+_DATES = {"date": "Dates", "tod": "Times of day", "dt": "Dates with a time"}
 
 
-def literal(scope: Scope, expr: tree.Literal) -> Constant | None:
-    """The constant that a literal stands for; None after a diagnostic."""
+def literal(scope: Scope, expr: tree.Literal, expected: Type | None) -> Constant | None:
+    """The constant that a literal stands for; None after a diagnostic. `expected` is the type that its place needs: it
+    tells whether 'A' is a string or a character (table 6)."""
     prefix = (expr.prefix or "").upper()
     if expr.kind in _DATES:
         what = f"The type {prefix}" if prefix in NOT_YET else _DATES[expr.kind]
@@ -29,6 +30,8 @@ def literal(scope: Scope, expr: tree.Literal) -> Constant | None:
         name = "LTIME" if prefix == "LT" else prefix
         scope.diagnostics.add("E0914", f"The type {name} is not supported yet.", expr.span)
         return None
+    if expr.kind in ("string", "wstring"):
+        return _text(scope, expr, prefix, expected)
     return _LITERALS[expr.kind](scope, expr, prefix)
 
 
@@ -75,17 +78,21 @@ def _bool(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
     return Constant(int(bool(expr.value)), BOOL, expr.span)
 
 
-def _string(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
+def _text(scope: Scope, expr: tree.Literal, prefix: str, expected: Type | None) -> Constant | None:
     text = str(expr.value)
-    if prefix and prefix != "STRING":
-        _no_such_literal(scope, expr, prefix)
+    t = StringType(max(len(text), 1), wide=expr.kind == "wstring")
+    wanted = type_named(prefix) if prefix else base_type(expected) if expected is not None else None
+    if wanted is t.character and (prefix or len(text) == 1):
+        if len(text) == 1:
+            return Constant(ord(text), t.character, expr.span)
+        scope.diagnostics.add("E0301", f"A {prefix} is one character, and here are {len(text)}.", expr.span)
         return None
     if len(text) > StringType().length:
         scope.diagnostics.add(
-            "E0501", f"This text has {len(text)} characters; a STRING holds {StringType().length}.", expr.span
+            "E0501", f"This text has {len(text)} characters; a {t.name} holds {StringType().length}.", expr.span
         )
         return None
-    return Constant(text, StringType(max(len(text), 1)), expr.span)
+    return Constant(text, t, expr.span)
 
 
 def _duration(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
@@ -113,6 +120,5 @@ _LITERALS: Mapping[str, Callable[[Scope, tree.Literal, str], Constant | None]] =
     "bool": _bool,
     "int": _integer,
     "real": _real,
-    "string": _string,
     "duration": _duration,
 }

@@ -16,7 +16,7 @@ from iec2mpy.semantics.conversions import (
     common_type,
     conversion_name,
     is_untyped,
-    same_type,
+    joined_type,
 )
 from iec2mpy.semantics.scope import Scope
 from iec2mpy.semantics.typed import Binary, Constant, Convert, Expr, Scalar, Unary
@@ -162,13 +162,24 @@ def _is_kind(t: Type, kinds: frozenset[Kind]) -> bool:
 
 def _typed_pair(scope: Scope, operator: str, left: Expr, right: Expr, operator_span: Span) -> tuple[Expr, Expr] | None:
     a, b = base_type(left.type), base_type(right.type)
-    if isinstance(a, ElementaryType) and isinstance(b, ElementaryType):
-        common = common_type(a, b)
-        if common is not None:
-            return convert(left, common), convert(right, common)
-    elif (isinstance(a, StringType) and isinstance(b, StringType)) or same_type(a, b):
-        return left, right
+    if (pair := _characters(left, right)) is not None:
+        return pair
+    common = joined_type(a, b)
+    if common is not None:
+        return convert(left, common), convert(right, common)
     _different(scope, operator, left, right, operator_span)
+    return None
+
+
+def _characters(left: Expr, right: Expr) -> tuple[Expr, Expr] | None:
+    """A character and a constant string of one: compared as characters, which gives the same and makes no string."""
+    for one, other in ((left, right), (right, left)):
+        t, character = base_type(one.type), base_type(other.type)
+        if isinstance(one, Constant) and isinstance(t, StringType) and character is t.character:
+            text = str(one.value)
+            if len(text) == 1:
+                code = Constant(ord(text), character, one.span)
+                return (code, other) if one is left else (other, code)
     return None
 
 

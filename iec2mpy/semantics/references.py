@@ -11,7 +11,16 @@ from iec2mpy.semantics.conversions import is_integer
 from iec2mpy.semantics.names import unknown_name
 from iec2mpy.semantics.scope import UNKNOWN, Scope
 from iec2mpy.semantics.signatures import parameter_key
-from iec2mpy.semantics.typed import Constant, DirectRef, ElementRef, Expr, FieldRef, Variable, VariableRef
+from iec2mpy.semantics.typed import (
+    CharacterRef,
+    Constant,
+    DirectRef,
+    ElementRef,
+    Expr,
+    FieldRef,
+    Variable,
+    VariableRef,
+)
 from iec2mpy.semantics.types import (
     ArrayType,
     BlockType,
@@ -264,16 +273,13 @@ def _element(scope: Scope, expr: tree.IndexExpr, use: Use) -> Expr | None:
         return None
     t = base.type
     if isinstance(t, StringType):
-        scope.diagnostics.add(
-            "E0915",
-            "Access to a character of a STRING is not supported yet.",
-            expr.span,
-            "MID(s, 1, i) gives it as a STRING.",
-        )
-        return None
+        return _character(scope, expr, base, t, indices, use)
     if not isinstance(t, ArrayType):
         scope.diagnostics.add(
-            "E0307", f"This is {describe(t)}, which has no elements.", expr.span, "Only arrays have subscripts."
+            "E0307",
+            f"This is {describe(t)}, which has no elements.",
+            expr.span,
+            "Only arrays and strings have subscripts.",
         )
         return None
     if len(indices) != len(t.bounds):
@@ -285,6 +291,35 @@ def _element(scope: Scope, expr: tree.IndexExpr, use: Use) -> Expr | None:
     if len(checked) != len(indices) or not _inside(scope, checked, t):
         return None
     return ElementRef(base, tuple(checked), unaliased(t.element), expr.span)
+
+
+def _character(
+    scope: Scope, expr: tree.IndexExpr, base: Expr, t: StringType, indices: Sequence[Expr | None], use: Use
+) -> Expr | None:
+    """A character of a string, by its position from 1 (6.4.2.2)."""
+    if use is Use.IN_OUT:
+        scope.diagnostics.add(
+            "E0406",
+            "An in-out needs a variable, and this is a character of one.",
+            expr.span,
+            "Store the character in a variable, and give that.",
+        )
+        return None
+    if len(indices) != 1:
+        scope.diagnostics.add("E0306", f"A string has 1 subscript, and {len(indices)} given.", expr.span)
+        return None
+    index = indices[0]
+    if index is None:
+        return None
+    if isinstance(index, Constant) and not 1 <= int(index.value) <= t.length:
+        scope.diagnostics.add(
+            "E0502",
+            f"There is no character {index.value}: the string has up to {t.length}.",
+            index.span,
+            "The first character has the number 1.",
+        )
+        return None
+    return CharacterRef(base, index, t.character, expr.span)
 
 
 def _dimensions(count: int) -> str:

@@ -9,7 +9,7 @@ from iec2mpy.semantics import arithmetic, expressions, operators
 from iec2mpy.semantics.arguments import report_mixed
 from iec2mpy.semantics.arithmetic import COMPARISONS
 from iec2mpy.semantics.coercion import coerce, describe, fits_literal, typed_literal
-from iec2mpy.semantics.conversions import common_type, converts_implicitly, is_untyped, same_type, type_named
+from iec2mpy.semantics.conversions import converts_implicitly, is_untyped, joined_type, type_named
 from iec2mpy.semantics.defaults import default_value
 from iec2mpy.semantics.scope import Scope
 from iec2mpy.semantics.signatures import Parameter, Signature, generic_members
@@ -210,7 +210,7 @@ def _result(signature: Signature, found: Mapping[str, Type], arguments: Sequence
         t = found.get(signature.result) or type_named(signature.result) or BOOL
     if isinstance(t, StringType):
         lengths = [a.type.length for a in arguments if isinstance(a.type, StringType)]
-        return StringType(max(lengths)) if signature.name in _SELECTIONS else StringType()
+        return StringType(max(lengths), t.wide) if signature.name in _SELECTIONS else StringType(wide=t.wide)
     return t
 
 
@@ -256,7 +256,7 @@ def _common(scope: Scope, signature: Signature, values: list[Expr]) -> Type | No
             typed.append(value)
     common = base_type(typed[0].type)
     for value in typed[1:]:
-        joined = _joined(common, base_type(value.type))
+        joined = joined_type(common, base_type(value.type))
         if joined is None:
             scope.diagnostics.add(
                 "E0303", f"{signature.name} cannot take both {describe(common)} and {describe(value.type)}.", value.span
@@ -266,19 +266,11 @@ def _common(scope: Scope, signature: Signature, values: list[Expr]) -> Type | No
     return common
 
 
-def _joined(a: Type, b: Type) -> Type | None:
-    if isinstance(a, ElementaryType) and isinstance(b, ElementaryType):
-        return common_type(a, b)
-    if isinstance(a, StringType) and isinstance(b, StringType):
-        return a if a.length >= b.length else b
-    return a if same_type(a, b) else None
-
-
 def _member(generic: str, t: Type) -> Type | None:
     """The type itself where the generic type has it, else the one of its members that it converts to."""
     names = generic_members(generic)
     if isinstance(t, StringType):
-        return t if "STRING" in names else None
+        return t if t.name in names else None
     if isinstance(t, EnumType):
         return t if generic == "ANY" else None
     if isinstance(t, ElementaryType) and t.name in names:

@@ -114,7 +114,7 @@ def _named(scope: Scope, spec: tree.NamedTypeSpec, name: str | None) -> Type:
         else:
             scope.diagnostics.add("E0208", f"`{text}` is a function, and no type.", spec.span)
     else:
-        known = [*ELEMENTARY, "STRING", *(d.name.text for d in world.type_declarations.values())]
+        known = [*ELEMENTARY, "STRING", "WSTRING", *(d.name.text for d in world.type_declarations.values())]
         known += [*(t.name for t in world.block_types.values()), *block_names()]
         near = suggest(text, known)
         scope.diagnostics.add(
@@ -130,23 +130,20 @@ def _named(scope: Scope, spec: tree.NamedTypeSpec, name: str | None) -> Type:
 
 
 def _string(scope: Scope, spec: tree.StringSpec, name: str | None) -> Type:
-    if spec.wide:
-        scope.diagnostics.add("E0914", "The type WSTRING is not supported yet.", spec.span)
-        return UNKNOWN
     if spec.length is None:
-        return StringType()
+        return StringType(wide=spec.wide)
     length = constants.integer(scope, spec.length, "The length of a string")
     if length is None:
         return UNKNOWN
     if not 1 <= length <= DEFAULT_STRING_LENGTH:
         scope.diagnostics.add(
             "E0509",
-            f"A STRING cannot have {length} characters.",
+            f"A {StringType(wide=spec.wide)} cannot have {length} characters.",
             spec.length.span,
             f"Write 1 to {DEFAULT_STRING_LENGTH}.",
         )
         return UNKNOWN
-    return StringType(length)
+    return StringType(length, spec.wide)
 
 
 def _limits(scope: Scope, low: tree.Expr, high: tree.Expr, what: str, span: Span) -> tuple[int, int] | None:

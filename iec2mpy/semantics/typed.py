@@ -15,7 +15,7 @@ from iec2mpy.syntax.tree import Edge, PouKind, Section
 
 Scalar = int | float | str
 """A value as it is stored: BOOL 0 or 1, integers, bit strings and enumerations their (mathematical) number, TIME
-milliseconds, REAL float, STRING str."""
+milliseconds, CHAR and WCHAR their code, REAL float, STRING and WSTRING str."""
 Value = Scalar | Sequence["Value"] | Mapping[str, "Value"]
 """Also whole: arrays as (nested) sequences, structures and instances as mappings by case-folded name. Complete for
 arrays and structures; for an instance it holds only what is given, the rest follows from its declaration."""
@@ -182,6 +182,16 @@ class PartRef:
 
 
 @dataclass(frozen=True, slots=True)
+class CharacterRef:
+    """A character of a string, by its position from 1 (6.4.2.2); `type` is CHAR or WCHAR."""
+
+    base: Expr
+    index: Expr
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Convert:
     """From the operand's type to `type`; implicit ones (figure 12) and X_TO_Y alike. `truncate` is TRUNC."""
 
@@ -274,6 +284,7 @@ Expr = (
     | FieldRef
     | ElementRef
     | PartRef
+    | CharacterRef
     | Convert
     | Unary
     | Binary

@@ -24,7 +24,7 @@ class Kind(Enum):
     BITS = "bit string"
     REAL = "real"
     DURATION = "duration"
-    STRING = "string"
+    CHARACTER = "character"
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class ElementaryType:
     @property
     def in_objects(self) -> bool:
         """Whether a value lives in `O` (a Python object) and not in `V` (a 32-bit slot)."""
-        return self.kind in (Kind.REAL, Kind.STRING) or self.bits > 32
+        return self.kind is Kind.REAL or self.bits > 32
 
     def __str__(self) -> str:
         return self.name
@@ -66,14 +66,16 @@ WORD = _unsigned("WORD", 16, Kind.BITS)
 DWORD = _unsigned("DWORD", 32, Kind.BITS)
 REAL = ElementaryType("REAL", Kind.REAL, 32, 0, 0)
 TIME = _signed("TIME", 32, Kind.DURATION)  # milliseconds
+CHAR = _unsigned("CHAR", 8, Kind.CHARACTER)  # the character's code
+WCHAR = _unsigned("WCHAR", 16, Kind.CHARACTER)
 
 NO_RESULT = ElementaryType("no result", Kind.BOOL, 0, 0, 0)
 """What the call of a function without a result gives; such a call stands alone."""
 
 ELEMENTARY: Mapping[str, ElementaryType] = {
-    t.name: t for t in (BOOL, SINT, INT, DINT, USINT, UINT, UDINT, BYTE, WORD, DWORD, REAL, TIME)
+    t.name: t for t in (BOOL, SINT, INT, DINT, USINT, UINT, UDINT, BYTE, WORD, DWORD, REAL, TIME, CHAR, WCHAR)
 }
-"""By name, in capitals. STRING has a length, and is `StringType`."""
+"""By name, in capitals. STRING and WSTRING have a length, and are `StringType`."""
 
 NOT_YET = frozenset(
     [
@@ -92,9 +94,6 @@ NOT_YET = frozenset(
         "DATE_AND_TIME",
         "LDT",
         "LDATE_AND_TIME",
-        "CHAR",
-        "WCHAR",
-        "WSTRING",
     ]
 )
 """Elementary types of the standard that this compiler does not have yet."""
@@ -104,9 +103,20 @@ DEFAULT_STRING_LENGTH = 254
 
 @dataclass(frozen=True, slots=True)
 class StringType:
-    """STRING of up to `length` characters."""
+    """STRING, or WSTRING if it is `wide`, of up to `length` characters."""
 
     length: int = DEFAULT_STRING_LENGTH
+    wide: bool = False
+
+    @property
+    def name(self) -> str:
+        """STRING or WSTRING."""
+        return "WSTRING" if self.wide else "STRING"
+
+    @property
+    def character(self) -> ElementaryType:
+        """The type of each of its characters."""
+        return WCHAR if self.wide else CHAR
 
     @property
     def in_objects(self) -> bool:
@@ -114,7 +124,7 @@ class StringType:
         return True
 
     def __str__(self) -> str:
-        return "STRING" if self.length == DEFAULT_STRING_LENGTH else f"STRING[{self.length}]"
+        return self.name if self.length == DEFAULT_STRING_LENGTH else f"{self.name}[{self.length}]"
 
 
 @dataclass(frozen=True, eq=False, slots=True)

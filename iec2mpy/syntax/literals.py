@@ -149,7 +149,7 @@ def _prefixed_string(file: SourceFile, start: int, at: int, prefix: str, diagnos
     """`STRING#'OK'`, `CHAR#'X'`, and by number `CHAR#16#41` (tables 5 and 6)."""
     kind = prefix.upper()
     quote = _STRING_TYPES[kind]
-    if file.text[at : at + 1] == quote or (kind == "WCHAR" and file.text[at : at + 1] == "'"):
+    if file.text[at : at + 1] == quote or (quote == '"' and file.text[at : at + 1] == "'"):
         token = read_string(file, start, at, prefix, diagnostics)
         assert token.value is not None
         if quote == '"':

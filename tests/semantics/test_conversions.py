@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import pytest
 
-from iec2mpy.semantics.conversions import common_type, conversion_name, converts_implicitly, same_type
+from iec2mpy.semantics.conversions import common_type, conversion_name, converts_implicitly, joined_type, same_type
 from iec2mpy.semantics.types import (
+    CHAR,
     DINT,
     ELEMENTARY,
     INT,
     REAL,
     TIME,
+    WCHAR,
     AliasType,
     ArrayType,
     ElementaryType,
@@ -35,6 +37,18 @@ IMPLICIT = {
 def test_figure_12(source: ElementaryType) -> None:
     reached = {t.name for t in ELEMENTARY.values() if converts_implicitly(source, t)}
     assert reached == {source.name, *IMPLICIT.get(source.name, "").split()}
+
+
+def test_characters_become_strings_of_their_width() -> None:
+    assert converts_implicitly(CHAR, StringType(1))
+    assert converts_implicitly(WCHAR, StringType(wide=True))
+    assert not converts_implicitly(CHAR, StringType(wide=True))
+    assert not converts_implicitly(CHAR, WCHAR)
+    assert not converts_implicitly(StringType(1), CHAR)
+    assert not converts_implicitly(StringType(), StringType(wide=True))
+    assert joined_type(CHAR, StringType(3)) == StringType(3)
+    assert joined_type(StringType(3), StringType(5)) == StringType(5)
+    assert joined_type(StringType(wide=True), CHAR) is None
 
 
 def test_implicit_conversions_of_integers_keep_every_value() -> None:

@@ -154,7 +154,6 @@ def test_constants_of_the_program_are_folded() -> None:
         ("i : INT;", "i := i.x;", "E0307"),
         ("t : TON; i : INT;", "i := t;", "E0301"),
         ("i : LINT;", ";", "E0914"),
-        ("s : STRING;", "s[1] := 'x';", "E0915"),
     ],
 )
 def test_wrong_expressions(variables: str, body: str, code: str) -> None:

@@ -18,11 +18,14 @@ _TO_STRING = {
     Kind.BITS: "int_to_str",
     Kind.REAL: "real_to_str",
     Kind.DURATION: "time_to_str",
+    Kind.CHARACTER: "char_to_str",
 }
 _LONGEST_NUMBER = 30
 """No number, truth value or duration has more characters than that."""
 _BITS = (Kind.BOOL, Kind.BITS)
 _UNSIGNED = {1: ty.BOOL, 8: ty.BYTE, 16: ty.WORD, 32: ty.DWORD}
+_UNKNOWN_CHARACTER = n.Const(ord("?"), ty.CHAR)
+"""Stands for a character that CHAR does not have (table 27, 6)."""
 
 
 def convert(context: Context, value: n.Expr, target: n.ValueType, truncate: bool) -> n.Expr:
@@ -43,6 +46,10 @@ def convert(context: Context, value: n.Expr, target: n.ValueType, truncate: bool
         # to BOOL the lowest bit is kept (table 24)
         lowest = n.Op("and", n.Wrap(value, ty.DWORD), n.Const(1, ty.DWORD), ty.DWORD)
         return n.Op("ne", lowest, n.Const(0, ty.DWORD), ty.BOOL)
+    if source is ty.WCHAR and target is ty.CHAR:
+        code = context.atom(value)
+        known = n.Op("le", code, n.Const(ty.CHAR.high, source), ty.BOOL)
+        return n.Select(known, n.Wrap(code, target), _UNKNOWN_CHARACTER, target)
     if source.kind in _BITS or target.kind in _BITS:
         # the bits are moved as they are: a sign is not spread
         return n.Wrap(n.Wrap(value, _UNSIGNED[source.bits]), target)
@@ -63,12 +70,18 @@ def _from_real(context: Context, value: n.Expr, target: ty.ElementaryType, trunc
 
 
 def _to_string(value: n.Expr, target: ty.StringType) -> n.Expr:
-    if not isinstance(value.type, ty.StringType):
-        value = n.Intrinsic(_TO_STRING[value.type.kind], (value,), ty.StringType(_LONGEST_NUMBER))
+    source = value.type
+    if not isinstance(source, ty.StringType):
+        longest = 1 if source.kind is Kind.CHARACTER else _LONGEST_NUMBER
+        value = n.Intrinsic(_TO_STRING[source.kind], (value,), ty.StringType(longest, target.wide))
+    elif source.wide and not target.wide:
+        value = n.Intrinsic("to_narrow", (value,), ty.StringType(source.length))
     return fit_string(value, target)
 
 
 def _from_string(context: Context, value: n.Expr, target: ty.ElementaryType) -> n.Expr:
+    if target.kind is Kind.CHARACTER:
+        return n.Intrinsic("str_to_char", (value,), target)
     context.emit(n.Mark(context.site))
     if target.kind is Kind.REAL:
         return n.Intrinsic("str_to_real", (value,), target)

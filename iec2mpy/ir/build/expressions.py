@@ -39,6 +39,10 @@ def _lower(context: Context, expr: t.Expr) -> n.Expr:
             return n.Load(lower_place(context, expr, lower_expr), stored_type(expr.type))
         case t.PartRef(base, low, part):
             return read_part(lower_expr(context, base), low, part)
+        case t.CharacterRef(base, index):
+            arguments = lower_all(context, (base, index))
+            context.emit(n.Mark(context.site))
+            return n.Intrinsic("character", tuple(arguments), stored_type(expr.type))
         case t.Convert(operand):
             return convert(context, lower_expr(context, operand), stored_type(expr.type), expr.truncate)
         case t.Unary(operator, operand):
@@ -67,6 +71,9 @@ def lower_aggregate(context: Context, expr: t.Expr) -> n.Place:
 
 def assign_expr(context: Context, target: t.Expr, value: t.Expr) -> None:
     """`target := value`, for single values and whole arrays and structures. The target's subscripts come first."""
+    if isinstance(target, t.CharacterRef):
+        _assign_character(context, target, value)
+        return
     part = target if isinstance(target, t.PartRef) else None
     if part is not None:
         target = part.base
@@ -83,6 +90,17 @@ def assign_expr(context: Context, target: t.Expr, value: t.Expr) -> None:
             place = fixed(context, place)
             lowered = with_part(n.Load(place, stored_type(target.type)), part.low, lowered)
         assign(context, place, target.type, lowered)
+
+
+def _assign_character(context: Context, target: t.CharacterRef, value: t.Expr) -> None:
+    """`s[i] := c`: the string with another character goes where it was. No character is added at its end."""
+    place = lower_place(context, target.base, lower_expr)
+    mark = context.mark()
+    index, code = lower_all(context, (target.index, value))
+    place = fixed(context, context.settle_place(mark, place))
+    string = n.Load(place, stored_type(target.base.type))
+    context.emit(n.Mark(context.site))
+    context.emit(n.Store(place, n.Intrinsic("with_character", (string, index, code), string.type)))
 
 
 def lower_all(context: Context, exprs: tuple[t.Expr, ...]) -> list[n.Expr]:

@@ -16,7 +16,10 @@ main.s|STRING[5]|O|2|0|5|
 main.t|TIME|V|13|-2147483648|2147483647|
 main.a[]|INT|V|20|-32768|32767|1:3:1
 main.m[,].on|BOOL|V|30|0|1|0:1:6;-1:1:2
-main.text|Text|O|3|0|254|
+main.text|STRING|O|3|0|254|
+main.wide|WSTRING|O|4|0|3|
+main.ch|CHAR|V|14|0|255|
+main.wch|CHAR|V|15|0|65535|
 @12|src/main.st|7|main
 @1|src/other.st|3|Valve
 """.replace("|", "\t")
@@ -56,6 +59,8 @@ def test_decode():
     assert place("main.c").decode(2) == "Green"
     assert place("main.c").decode(1) == 1
     assert place("main.x").decode(0.5) == 0.5
+    assert place("main.ch").decode(65) == "A"
+    assert place("main.wch").decode(937) == "\u03a9"
 
 
 def test_encode():
@@ -68,6 +73,9 @@ def test_encode():
     assert place("main.x").encode(0.1) == 0.10000000149011612
     assert place("main.s").encode("abcde") == "abcde"
     assert place("main.t").encode(1500) == 1500
+    assert place("main.wide").encode("\u03a9") == "\u03a9"
+    assert place("main.ch").encode("\xff") == 255
+    assert place("main.wch").encode("\u03a9") == 937
 
 
 def test_encode_refuses():
@@ -75,6 +83,9 @@ def test_encode_refuses():
     assert "red, Green" in str(raises(ValueError, place("main.c").encode, "blue"))
     assert "5 characters" in str(raises(ValueError, place("main.s").encode, "abcdef"))
     assert "254 characters" in str(raises(ValueError, place("main.text").encode, "x" * 255))
+    assert "up to 255" in str(raises(ValueError, place("main.text").encode, "\u03a9"))
+    assert "one character" in str(raises(ValueError, place("main.ch").encode, "ab"))
+    assert "up to 255" in str(raises(ValueError, place("main.ch").encode, "\u03a9"))
     for path, value in (
         ("main.b", 2),
         ("main.b", "TRUE"),
