@@ -1,7 +1,7 @@
 """Golden cases: small programs with the text that must come out of them, to be read side by side.
 
-A file holds cases. Each begins with `[case name]`, then comes the program, then sections such as `[out main]`, each with
-the text that is expected. `python -m tests.update_golden` writes all sections anew; look at what changes.
+A file holds cases. Each begins with `[case name]`, then comes the program, then sections such as `[out main]`, each
+with the text that is expected. `python -m tests.update_golden` writes all sections anew; look at what changes.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Writes what the golden cases expect anew: `python -m tests.update_golden`. Look at the difference before it is kept."""
+"""Writes anew what the golden cases expect: `python -m tests.update_golden`. Look at the difference before you keep it."""
 
 from __future__ import annotations
 
