@@ -10,6 +10,7 @@ PACKAGE = (
     "characters",
     "clock",
     "controller",
+    "decimals",
     "faults",
     "memory",
     "names",

@@ -4,7 +4,8 @@ Positions count from 1. Lengths and positions are clamped to what the string has
 the type faults `range`.
 """
 
-from mcu_runtime.arithmetic import f32
+from mcu_runtime.arithmetic import real_to_bits
+from mcu_runtime.decimals import read, shortest
 from mcu_runtime.faults import RANGE
 
 _DIGITS = "0123456789abcdef"
@@ -76,15 +77,19 @@ def real_to_str(x):
     """The shortest decimal that is this number in single precision, written as a literal of REAL (table 5)."""
     if x != x or x - x != 0.0:
         return "nan" if x != x else "inf" if x > 0.0 else "-inf"
-    text = ""
-    for digits in (6, 7, 8, 9):
-        text = "%.*g" % (digits, x)
-        if f32(float(text)) == f32(x):
-            break
-    mantissa, e, exponent = text.partition("e")
-    if "." not in mantissa:
-        mantissa += ".0"
-    return mantissa + "E" + exponent if e else mantissa
+    sign = "-" if real_to_bits(x) >> 31 else ""
+    if x == 0.0:
+        return sign + "0.0"
+    digits, exponent = shortest(abs(x))
+    if -4 <= exponent < max(len(digits), 6):
+        digits = "0" * -exponent + digits
+        point = max(exponent, 0) + 1
+        end = ""
+    else:
+        point = 1
+        end = "E%+03d" % exponent
+    digits += "0" * (point + 1 - len(digits))
+    return sign + digits[:point] + "." + digits[point:] + end
 
 
 def str_to_bool(s):
@@ -117,14 +122,17 @@ def str_to_real(s):
     negative, text = _sign(s.strip())
     mantissa, e, exponent = text.lower().partition("e")
     whole, point, fraction = mantissa.partition(".")
+    power = 0
+    if e:
+        down, exponent = _sign(exponent)
+        power = -_number(exponent, 10) if down else _number(exponent, 10)
     digits = str(_number(whole, 10))
     if point:
         _number(fraction, 10)
-        digits += "." + fraction.replace("_", "")
-    if e:
-        down, exponent = _sign(exponent)
-        digits += "e" + ("-" if down else "") + str(_number(exponent, 10))
-    x = float(digits)
+        fraction = fraction.replace("_", "")
+        digits += fraction
+        power -= len(fraction)
+    x = read(digits, power)
     return -x if negative else x
 
 
