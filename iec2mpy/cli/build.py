@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from iec2mpy.cli.support import show_diagnostics
+from iec2mpy.cli.support import dialect_option, show_diagnostics
 
 if TYPE_CHECKING:
     from iec2mpy.project.build import Build
@@ -41,11 +41,12 @@ _PURPOSES = {
 @click.argument("directory", metavar="[DIR]", required=False, default=".", type=click.Path(path_type=Path))
 @click.option("--board", metavar="B", help="Build for this board instead of the project's.")
 @click.option("--emitter", type=click.Choice(["viper", "portable"]), help="The form of the code.  [default: viper]")
-def command(directory: Path, board: str | None, emitter: str | None) -> None:
+@dialect_option
+def command(directory: Path, board: str | None, emitter: str | None, dialect: str | None) -> None:
     from iec2mpy.project.build import BUILD_FOLDER, build_project, write_build
     from iec2mpy.project.config import load_project
 
-    project = load_project(directory, board)
+    project = load_project(directory, board, dialect)
     build = build_project(project, emitter)
     show_diagnostics(build.warnings)
     folder = project.root / BUILD_FOLDER

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from iec2mpy.cli.support import exit_code, show_diagnostics
+from iec2mpy.cli.support import dialect_option, exit_code, show_diagnostics
 from iec2mpy.source.diagnostics import CompileError, Diagnostic
 
 _HELP = """Look for errors in a program, and build nothing.
@@ -28,8 +28,9 @@ Examples:
 @click.command("check", help=_HELP)
 @click.argument("paths", metavar="[PATH]...", nargs=-1, type=click.Path(path_type=Path))
 @click.option("--format", "form", type=click.Choice(["text", "json", "sarif"]), default="text", show_default=True)
-def command(paths: tuple[Path, ...], form: str) -> None:
-    diagnostics = [d for group in _programs(paths) for d in _check(group)]
+@dialect_option
+def command(paths: tuple[Path, ...], form: str, dialect: str | None) -> None:
+    diagnostics = [d for group in _programs(paths) for d in _check(group, dialect)]
     if form == "text":
         show_diagnostics(diagnostics)
     else:
@@ -49,16 +50,17 @@ def _programs(paths: Sequence[Path]) -> list[list[Path]]:
     return groups or [[]]
 
 
-def _check(paths: Sequence[Path]) -> Sequence[Diagnostic]:
+def _check(paths: Sequence[Path], dialect: str | None) -> Sequence[Diagnostic]:
     """All that is said of one program; of a project also what its board lacks."""
     from iec2mpy.project.build import build_project
     from iec2mpy.project.compile import check_files
     from iec2mpy.project.config import load_project
     from iec2mpy.source.files import read_sources
+    from iec2mpy.source.spans import STRICT
 
     try:
         if paths and not paths[0].is_dir():
-            return check_files(read_sources(paths)).warnings
-        return build_project(load_project(paths[0] if paths else Path())).warnings
+            return check_files(read_sources(paths, dialect=dialect or STRICT)).warnings
+        return build_project(load_project(paths[0] if paths else Path(), dialect=dialect)).warnings
     except CompileError as error:
         return error.diagnostics

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from iec2mpy.cli.support import UserError, engine_option, load_program, show_diagnostics, show_fault
+from iec2mpy.cli.support import UserError, dialect_option, engine_option, load_program, show_diagnostics, show_fault
 
 if TYPE_CHECKING:
     from iec2mpy.backends import GeneratedProgram
@@ -50,6 +50,7 @@ Examples:
 @click.option("--trace", metavar="OUT.csv", type=click.Path(path_type=Path), help="Write the values after each scan.")
 @click.option("--plot", metavar="OUT.svg", type=click.Path(path_type=Path), help="Draw the values over the time.")
 @click.option("--json", "as_json", is_flag=True, help="Print the last values as JSON, and no table.")
+@dialect_option
 def command(
     paths: Sequence[Path],
     scans: int | None,
@@ -60,6 +61,7 @@ def command(
     trace: Path | None,
     plot: Path | None,
     as_json: bool,
+    dialect: str | None,
 ) -> None:
     span_us = _span(scans, duration)
     if scans is None and span_us is None and (trace or plot or as_json):
@@ -71,7 +73,7 @@ def command(
     from iec2mpy.simulator.session import Simulation
     from iec2mpy.simulator.watching import watch
 
-    source = load_program(paths)
+    source = load_program(paths, dialect)
     checked = check_files(source.files, source.interval_us)
     show_diagnostics(checked.warnings)
     program = generate(lower(checked), ENGINE_TARGETS[engine])

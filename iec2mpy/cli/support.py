@@ -37,23 +37,26 @@ class Program:
     project: Project | None
 
 
-def load_program(paths: Sequence[Path]) -> Program:
-    """The program that a command's arguments mean: a project's folder, the current one for none, or source files.
+def load_program(paths: Sequence[Path], dialect: str | None) -> Program:
+    """The program that a command's arguments mean: a project's folder, the current one for none, or source files;
+    in its own dialect, or in the one that is named.
 
     Raises CompileError where something cannot be read, and UserError for what is no sensible combination.
     """
+    from iec2mpy.project.build import load_sources
     from iec2mpy.project.compile import DEFAULT_INTERVAL_US
     from iec2mpy.project.config import load_project
     from iec2mpy.source.files import read_sources
+    from iec2mpy.source.spans import STRICT
 
     folders = [path for path in paths if path.is_dir()]
     if folders and len(paths) > 1:
         raise UserError(f"{folders[0]} is a folder: name one project, or only source files")
     if paths and not folders:
-        return Program(paths[0].stem, read_sources(paths), DEFAULT_INTERVAL_US, None)
-    project = load_project(folders[0] if folders else Path())
+        return Program(paths[0].stem, read_sources(paths, dialect=dialect or STRICT), DEFAULT_INTERVAL_US, None)
+    project = load_project(folders[0] if folders else Path(), dialect=dialect)
     show_diagnostics(project.warnings)
-    return Program(project.name, read_sources(project.sources, project.root), project.interval, project)
+    return Program(project.name, load_sources(project), project.interval, project)
 
 
 def exit_code(diagnostics: Sequence[Diagnostic]) -> int:
@@ -108,3 +111,12 @@ def engine_option(several: bool) -> Callable[[F], F]:
         callback=lambda ctx, param, chosen: names if "all" in chosen else list(dict.fromkeys(chosen)),
         help=f"{text} Can be given several times.",
     )
+
+
+def dialect_option(command: F) -> F:
+    """`--dialect`, as the parameter `dialect`; None where it is not given."""
+    from iec2mpy.source.dialects import DIALECTS
+
+    return click.option(
+        "--dialect", type=click.Choice(DIALECTS), help="Accept what this system has beyond the standard."
+    )(command)

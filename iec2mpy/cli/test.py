@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from iec2mpy.cli.support import UserError, engine_option
+from iec2mpy.cli.support import UserError, dialect_option, engine_option
 
 if TYPE_CHECKING:
     from iec2mpy.simulator.case_runner import Outcome
@@ -37,13 +37,22 @@ exit code is 1 if one failed. docs/case-files.md describes the files.
 @click.option("-k", "pattern", metavar="PATTERN", default="", help="Only cases with this text in their id or title.")
 @click.option("-v", "--verbose", is_flag=True, help="Name the cases that passed, too.")
 @click.option("--json", "json_out", metavar="OUT", type=click.Path(path_type=Path), help="Write one record a case.")
-def command(files: Sequence[Path], engines: Sequence[str], pattern: str, verbose: bool, json_out: Path | None) -> None:
+@dialect_option
+def command(
+    files: Sequence[Path],
+    engines: Sequence[str],
+    pattern: str,
+    verbose: bool,
+    json_out: Path | None,
+    dialect: str | None,
+) -> None:
+    from iec2mpy.project.config import dialect_of
     from iec2mpy.simulator.case_runner import PASSED, run_case
 
     cases = _chosen(_case_files(files), pattern)
     outcomes: list[Outcome] = []
     for case in cases:
-        outcome = run_case(case, engines)
+        outcome = run_case(case, engines, dialect or dialect_of(case.file.resolve().parent.parent))
         outcomes.append(outcome)
         if outcome.outcome != PASSED or verbose:
             _show(outcome)

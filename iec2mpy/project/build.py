@@ -41,7 +41,7 @@ class Build:
 
 def load_sources(project: Project) -> list[SourceFile]:
     """The project's program text; paths are shown from where the project was named. Raises CompileError."""
-    return read_sources(project.sources, project.root)
+    return read_sources(project.sources, project.root, project.dialect)
 
 
 def build_project(project: Project, emitter: str | None = None) -> Build:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,7 +15,8 @@ from iec2mpy.project.pins import check_pins, displaced_channels
 from iec2mpy.project.schema import Key, Schema, read_table
 from iec2mpy.project.toml_text import TomlText, parse_toml
 from iec2mpy.source.diagnostics import CompileError, Diagnostic, Diagnostics
-from iec2mpy.source.spans import SourceFile
+from iec2mpy.source.dialects import DIALECTS
+from iec2mpy.source.spans import STRICT, SourceFile
 
 PROJECT_FILE = "iec2mpy.toml"
 EMITTERS = ("viper", "portable")
@@ -26,6 +28,7 @@ _PROJECT_KEYS: Schema = {
     "sources": Key("texts", '["src/*.st"]'),
     "interval": Key("text", '"T#10ms"'),
     "emitter": Key("text", '"viper"', choices=EMITTERS),
+    "dialect": Key("text", '"codesys"', choices=DIALECTS),
 }
 _DEFAULT_SOURCES = ("src/*.st",)
 _DEFAULT_INTERVAL = "T#10ms"
@@ -36,7 +39,8 @@ _SHORTEST, _LONGEST = 1_000, 60_000_000  # microseconds
 class Project:
     """A project as its file says. `board` has the project's own channels among the others. `sources` are the files
     that the globs found, sorted. `interval` is that of a task without one, in microseconds; `emitter` the form of the
-    generated code, "viper" or "portable". `warnings` are what was noticed on reading."""
+    generated code, "viper" or "portable"; `dialect` what its sources may have beyond the standard. `warnings` are what
+    was noticed on reading."""
 
     root: Path
     name: str
@@ -44,11 +48,12 @@ class Project:
     sources: tuple[Path, ...]
     interval: int
     emitter: str
+    dialect: str
     warnings: tuple[Diagnostic, ...] = ()
 
 
-def load_project(directory: Path, board: str | None = None) -> Project:
-    """Reads the project in a directory, for another board than the file's if one is named.
+def load_project(directory: Path, board: str | None = None, dialect: str | None = None) -> Project:
+    """Reads the project in a directory, for another board and in another dialect than the file's where they are named.
 
     Raises CompileError with all that is wrong: no project file, an unknown board, pins that cannot do what is asked.
     """
@@ -69,8 +74,20 @@ def load_project(directory: Path, board: str | None = None) -> Project:
         sources=sources,
         interval=interval,
         emitter=values.get("emitter", "viper" if found.chip.native else "portable"),
+        dialect=dialect or values.get("dialect", STRICT),
         warnings=tuple(diagnostics.items),
     )
+
+
+def dialect_of(directory: Path) -> str:
+    """The dialect of the project in a directory; the standard's where there is no project, or none that can be read."""
+    try:
+        data = tomllib.loads((directory / PROJECT_FILE).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return STRICT
+    project = data.get("project")
+    dialect = project.get("dialect") if isinstance(project, dict) else None
+    return dialect if dialect in DIALECTS else STRICT
 
 
 def _read_file(path: Path) -> SourceFile:
@@ -104,9 +121,7 @@ def _board(toml: TomlText, values: Mapping[str, Any], named: str | None, diagnos
     return replace(board, channels=channels, displaced=displaced)
 
 
-def _sources(
-    toml: TomlText, directory: Path, values: Mapping[str, Any], diagnostics: Diagnostics
-) -> tuple[Path, ...]:
+def _sources(toml: TomlText, directory: Path, values: Mapping[str, Any], diagnostics: Diagnostics) -> tuple[Path, ...]:
     found: set[Path] = set()
     span = toml.value_span("project", "sources")
     for pattern in values.get("sources", _DEFAULT_SOURCES):

@@ -13,15 +13,16 @@ from iec2mpy.semantics.type_specs import holds_instance, resolve_type
 from iec2mpy.semantics.typed import EdgeInput, Pou, Value, Variable
 from iec2mpy.semantics.types import BOOL, AliasType, ArrayType, BlockType, StructType, Type, unaliased
 from iec2mpy.source.diagnostics import Related
+from iec2mpy.source.dialects import with_dialects
 from iec2mpy.source.spans import Span
 from iec2mpy.source.suggest import suggest
 from iec2mpy.syntax import tree
 from iec2mpy.syntax.tree import PouKind, Retention, Section
 
 _RETENTION = {Retention.RETAIN: True, Retention.NON_RETAIN: False, None: None}
-_RETAINABLE = frozenset((Section.VAR, Section.INPUT, Section.OUTPUT, Section.GLOBAL))
+_RETAINABLE = frozenset((Section.VAR, Section.STATIC, Section.INPUT, Section.OUTPUT, Section.GLOBAL))
 """The sections that RETAIN may qualify (6.5.6.2)."""
-_CONSTANT = frozenset((Section.VAR, Section.GLOBAL, Section.EXTERNAL))
+_CONSTANT = frozenset((Section.VAR, Section.STATIC, Section.GLOBAL, Section.EXTERNAL))
 
 
 # --------------------------------------------------------------------------------------------------- globals
@@ -149,9 +150,10 @@ def _check_qualifiers(scope: Scope, section: tree.VarSection) -> None:
             "RETAIN goes with VAR, VAR_INPUT, VAR_OUTPUT and VAR_GLOBAL.",
         )
     if section.constant and section.section not in _CONSTANT:
-        scope.diagnostics.add(
-            "E0702", f"{name} cannot be CONSTANT.", section.span, "CONSTANT goes with VAR, VAR_GLOBAL and VAR_EXTERNAL."
-        )
+        hint = "CONSTANT goes with VAR, VAR_GLOBAL and VAR_EXTERNAL."
+        if section.section is Section.INPUT:
+            hint = with_dialects("constant-input", hint)
+        scope.diagnostics.add("E0702", f"{name} cannot be CONSTANT.", section.span, hint)
 
 
 def _declare(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tree.VarDecl) -> None:

@@ -6,6 +6,7 @@ from iec2mpy.semantics import type_specs
 from iec2mpy.semantics.scope import UNKNOWN, Scope
 from iec2mpy.semantics.typed import Constant
 from iec2mpy.semantics.types import EnumType, Type, unaliased
+from iec2mpy.source.dialects import with_dialects
 from iec2mpy.source.suggest import suggest
 from iec2mpy.syntax import tree
 
@@ -107,12 +108,9 @@ def unknown_name(scope: Scope, expr: tree.NameExpr) -> None:
         if scope.pou is None:
             add("E0505", f"`{expr.name}` is no constant, and a constant is needed here.", expr.span)
         else:
-            add(
-                "E0201",
-                f"`{expr.name}` is a global variable, and not declared in `{scope.pou.name}`.",
-                expr.span,
-                f"Add VAR_EXTERNAL {expr.name} : … ; END_VAR with its type.",
-            )
+            message = f"`{expr.name}` is a global variable, and not declared in `{scope.pou.name}`."
+            hint = f"Add VAR_EXTERNAL {expr.name} : … ; END_VAR with its type."
+            add("E0201", message, expr.span, with_dialects("global-without-external", hint))
     else:
         near = suggest(expr.name, scope.visible_names())
         add(

@@ -61,8 +61,14 @@ _NEEDS = {
 }
 
 
+SHORT_CIRCUIT = ("AND_THEN", "OR_ELSE")
+"""Operators that dialects have."""
+
+
 def binary(scope: Scope, operator: str, left: Expr, right: Expr, operator_span: Span, span: Span) -> Expr | None:
     """`left operator right`, with both operands brought to their common type; None after a diagnostic."""
+    if operator in SHORT_CIRCUIT:
+        return _short_circuit(scope, operator, left, right, span)
     if isinstance(left, Constant) and isinstance(right, Constant) and is_untyped(left.type) and is_untyped(right.type):
         return _untyped(scope, operator, left, right, span)
     if operator in ("*", "/") and base_type(left.type) is TIME and is_number(right.type):
@@ -75,6 +81,17 @@ def binary(scope: Scope, operator: str, left: Expr, right: Expr, operator_span: 
         return None
     left, right = pair
     return _node(scope, operator, left, right, BOOL if operator in COMPARISONS else base_type(left.type), span)
+
+
+def _short_circuit(scope: Scope, operator: str, left: Expr, right: Expr, span: Span) -> Expr | None:
+    """The right side is evaluated only where the left one does not decide."""
+    sides = [coerce(scope, side, BOOL, "E0302", f"`{operator}` needs BOOL") for side in (left, right)]
+    first, second = sides
+    if first is None or second is None:
+        return None
+    if isinstance(first, Constant):
+        return second if bool(first.value) == (operator == "AND_THEN") else first
+    return Binary(operator, first, second, BOOL, span)
 
 
 def _node(scope: Scope, operator: str, left: Expr, right: Expr, t: Type, span: Span) -> Expr | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from enum import Enum
+from pathlib import PurePath
 
 from iec2mpy.semantics import addresses, declarations, expressions, parts
 from iec2mpy.semantics.coercion import describe, typed_literal
@@ -31,6 +32,7 @@ from iec2mpy.semantics.types import (
     unaliased,
 )
 from iec2mpy.source.diagnostics import Related
+from iec2mpy.source.dialects import accepts, require, with_dialects
 from iec2mpy.source.spans import Span
 from iec2mpy.source.suggest import suggest
 from iec2mpy.syntax import tree
@@ -84,6 +86,8 @@ def _name(scope: Scope, expr: tree.NameExpr, use: Use) -> Expr | None:
     variable = scope.locals.get(key)
     if variable is None and scope.pou is None:
         variable = declarations.shared_constant(scope.world, key)
+    if variable is None and scope.pou is not None and accepts(expr.span.file, "global-without-external"):
+        variable = declarations.global_variable(scope.world, key)
     if variable is None:
         if scope.enumerations_with(key) and use is not Use.READ:
             _no_variable(scope, expr, use)
@@ -103,20 +107,15 @@ def _may_use(scope: Scope, variable: Variable, use: Use, span: Span) -> bool:
     if variable.constant:
         add("E0507", f"`{variable.name}` is a constant: it cannot be {use.value}.", span, None, [_declared(variable)])
         return False
-    if variable.section is Section.INPUT:
+    if variable.section is Section.INPUT and not accepts(span.file, "written-input"):
         code = "E0606" if use is Use.IN_OUT else "E0604"
         hint = (
             "Copy it to a variable of VAR or VAR_TEMP, and change that."
             if use is Use.WRITE
             else "Give it a copy in a variable of VAR."
         )
-        add(
-            code,
-            f"`{variable.name}` is an input of `{_owner(scope)}`: it cannot be {use.value} here.",
-            span,
-            hint,
-            [_declared(variable)],
-        )
+        message = f"`{variable.name}` is an input of `{_owner(scope)}`: it cannot be {use.value} here."
+        add(code, message, span, with_dialects("written-input", hint), [_declared(variable)])
         return False
     located = (variable.target or variable).address
     if located and located.startswith("%I"):
@@ -154,6 +153,14 @@ def _declared(variable: Variable) -> Related:
     return Related(variable.span, f"`{variable.name}` is declared here.")
 
 
+def _is_list_of(scope: Scope, key: str, member: str) -> bool:
+    """Whether a global variable is declared in the file of that name, and nothing else has that name."""
+    declared = scope.world.global_declarations.get(member)
+    if declared is None or key in scope.world.global_declarations:
+        return False
+    return PurePath(declared.name.span.file.path).stem.casefold() == key
+
+
 def _direct(scope: Scope, expr: tree.DirectVariable, use: Use) -> Expr | None:
     variable = addresses.direct_variable(scope, expr)
     if variable is None or variable.type is UNKNOWN:
@@ -179,6 +186,12 @@ def _member(scope: Scope, expr: tree.MemberExpr, use: Use) -> Expr | None:
                 f"Take the output in the call: {declaration.name.text}(…, {expr.name.text} => variable).",
             )
             return None
+        if _is_list_of(scope, key, expr.name.key):
+            message = f"`{expr.base.name}` is not declared: it is a file with global variables."
+            instead = f"Write `{expr.name.text}` alone, which VAR_EXTERNAL declares."
+            if not require("qualified-global", scope.diagnostics, "E0201", message, expr.base.span, instead):
+                return None
+            return _name(scope, tree.NameExpr(expr.name.text, expr.span), use)
     base = _base(scope, expr.base, use)
     if base is None:
         return None

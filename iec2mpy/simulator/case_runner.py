@@ -18,7 +18,7 @@ from iec2mpy.simulator.session import Simulation
 from iec2mpy.simulator.values import differences
 from iec2mpy.source.diagnostics import CompileError, Diagnostic, Severity
 from iec2mpy.source.files import read_sources
-from iec2mpy.source.spans import SourceFile
+from iec2mpy.source.spans import STRICT, SourceFile
 
 PASSED, FAILED, ERROR = "passed", "failed", "error"
 _NOT_YET = "E09"
@@ -38,13 +38,14 @@ class Outcome:
 class Programs:
     """The program of a case, compiled once, and generated once for each target."""
 
-    def __init__(self, case: Case) -> None:
+    def __init__(self, case: Case, dialect: str = STRICT) -> None:
         self._case = case
+        self._dialect = dialect
         self._generated: dict[Target, GeneratedProgram] = {}
 
     @cached_property
     def _module(self) -> Module:
-        return lower(check_files(_files(self._case), self._case.interval_us))
+        return lower(check_files(_files(self._case, self._dialect), self._case.interval_us))
 
     def for_engine(self, engine: str) -> GeneratedProgram:
         """The form of the program that an engine executes. Raises CompileError."""
@@ -54,21 +55,21 @@ class Programs:
         return self._generated[target]
 
 
-def _files(case: Case) -> list[SourceFile]:
+def _files(case: Case, dialect: str) -> list[SourceFile]:
     if case.source is not None:
-        return [SourceFile(f"{case.file} ({case.id})", case.source)]
-    return read_sources(case.file.parent / name for name in case.files)
+        return [SourceFile(f"{case.file} ({case.id})", case.source, dialect=dialect)]
+    return read_sources((case.file.parent / name for name in case.files), dialect=dialect)
 
 
-def run_case(case: Case | BadCase, engines: Sequence[str]) -> Outcome:
-    """Runs a case on each of the engines; the first one on which it does not pass decides.
+def run_case(case: Case | BadCase, engines: Sequence[str], dialect: str = STRICT) -> Outcome:
+    """Runs a case on each of the engines; the first one on which it does not pass decides. `dialect` is its program's.
 
     Raises EngineUnavailable where an engine is not installed.
     """
     if isinstance(case, BadCase):
         return Outcome(case, ERROR, case.message)
     try:
-        return _run_on_all(case, engines)
+        return _run_on_all(case, engines, dialect)
     except EngineUnavailable:
         raise
     except Exception as error:
@@ -76,8 +77,8 @@ def run_case(case: Case | BadCase, engines: Sequence[str]) -> Outcome:
         return Outcome(case, ERROR, f"a fault of iec2mpy itself, please report it: {type(error).__name__}: {error}")
 
 
-def _run_on_all(case: Case, engines: Sequence[str]) -> Outcome:
-    programs = Programs(case)
+def _run_on_all(case: Case, engines: Sequence[str], dialect: str) -> Outcome:
+    programs = Programs(case, dialect)
     if case.error is not None:
         return _expect_error(case, case.error, programs, engines[0])
     for engine in engines:

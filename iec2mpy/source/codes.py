@@ -50,6 +50,8 @@ CODES: dict[str, Code] = {
     "E0126": Code("NOT of several values", "syntax"),
     "E0127": Code("misspelt keyword", "syntax"),
     "E0128": Code("text outside of programs", "syntax"),
+    "E0129": Code("not in the standard", "syntax"),
+    "E0130": Code("inline C", "syntax"),
     "E0201": Code("name is not declared", "name"),
     "E0202": Code("name is declared twice", "name"),
     "E0203": Code("type is not declared", "name"),

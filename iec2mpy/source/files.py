@@ -8,7 +8,7 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from iec2mpy.source.diagnostics import CompileError, Diagnostic
-from iec2mpy.source.spans import SourceFile
+from iec2mpy.source.spans import STRICT, SourceFile
 
 _OTHER_ENCODINGS = (
     (codecs.BOM_UTF32_LE, "UTF-32"),  # before UTF-16, as it starts with the same two bytes
@@ -18,9 +18,9 @@ _OTHER_ENCODINGS = (
 )
 
 
-def load_file(path: str | PathLike[str], home: str | PathLike[str] = "") -> SourceFile:
+def load_file(path: str | PathLike[str], home: str | PathLike[str] = "", dialect: str = STRICT) -> SourceFile:
     """The text of one file, whose name is shown as it is given here. Lines end with `\\n`, whatever the file has.
-    `home` is the folder of its project.
+    `home` is the folder of its project, `dialect` that of the program.
 
     Raises CompileError with E0001 where it cannot be read, with E0002 where it is not UTF-8 (with or without a mark).
     """
@@ -36,11 +36,13 @@ def load_file(path: str | PathLike[str], home: str | PathLike[str] = "") -> Sour
     except _WrongEncoding as problem:
         raise CompileError([problem.diagnostic]) from None
     lines = text.replace("\r\n", "\n").replace("\r", "\n")
-    return SourceFile(shown, lines, home=fspath(home))
+    return SourceFile(shown, lines, home=fspath(home), dialect=dialect)
 
 
-def read_sources(paths: Iterable[str | PathLike[str]], home: str | PathLike[str] = "") -> list[SourceFile]:
-    """All of these files, of the project in the folder `home`.
+def read_sources(
+    paths: Iterable[str | PathLike[str]], home: str | PathLike[str] = "", dialect: str = STRICT
+) -> list[SourceFile]:
+    """All of these files, of the project in the folder `home`, in one dialect.
 
     Raises one CompileError with what is wrong with any of them.
     """
@@ -48,7 +50,7 @@ def read_sources(paths: Iterable[str | PathLike[str]], home: str | PathLike[str]
     problems: list[Diagnostic] = []
     for path in paths:
         try:
-            files.append(load_file(path, home))
+            files.append(load_file(path, home, dialect))
         except CompileError as error:
             problems += error.diagnostics
     if problems:

@@ -7,19 +7,24 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import PurePath
 
+STRICT = "strict"
+"""The dialect that is the standard itself."""
+
 
 @dataclass(frozen=True, eq=False)
 class SourceFile:
     """One file of program text. `path` is as the user wrote it: it is what messages show.
 
     `home` is the folder of its project, in the same way: what is built names the file from there (`name`), so that the
-    same project gives the same program wherever it lies.
+    same project gives the same program wherever it lies. `dialect` says what it may have beyond the standard
+    (`source/dialects.py`).
     """
 
     path: str
     text: str = field(repr=False)
     is_stdlib: bool = False
     home: str = ""
+    dialect: str = STRICT
 
     @cached_property
     def name(self) -> str:

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 from iec2mpy.source.diagnostics import Diagnostics
+from iec2mpy.source.dialects import require
 from iec2mpy.source.spans import Span
 from iec2mpy.syntax import tree
 from iec2mpy.syntax.tokens import Token
@@ -100,6 +101,17 @@ _OPERATORS = {
 def binary(values: list[Any], _diagnostics: Diagnostics) -> tree.BinaryExpr:
     left, operator, right = values
     return tree.BinaryExpr(_OPERATORS[operator.type], left, right, operator.span, over(left, right))
+
+
+@action
+def short_circuit(values: list[Any], diagnostics: Diagnostics) -> tree.BinaryExpr:
+    """AND_THEN, OR_ELSE: in the standard it is open whether both sides are evaluated (7.3.2)."""
+    left, operator, right = values
+    word = operator.text.upper()
+    instead = f"Write {word.partition('_')[0]}: both sides are evaluated then."
+    message = f"`{operator.text}` is not an operator of the standard."
+    require("short-circuit", diagnostics, "E0129", message, operator.span, instead)
+    return tree.BinaryExpr(word, left, right, operator.span, over(left, right))
 
 
 @action

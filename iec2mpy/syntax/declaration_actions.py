@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from iec2mpy.source.diagnostics import Diagnostics
+from iec2mpy.source.dialects import accepts, require
 from iec2mpy.syntax import tree
 from iec2mpy.syntax.actions import action, name_of, not_supported, over
 from iec2mpy.syntax.tokens import Token
@@ -38,8 +39,12 @@ def string(values: list[Any], _diagnostics: Diagnostics) -> tree.StringSpec:
 
 
 @action
-def sized_string(values: list[Any], _diagnostics: Diagnostics) -> tree.StringSpec:
-    word, _, length, closing = values
+def sized_string(values: list[Any], diagnostics: Diagnostics) -> tree.StringSpec:
+    word, opening, length, closing = values
+    if opening.type == "LPAR":
+        message = f"The length of a {word.text.upper()} stands in square brackets."
+        instead = f"Such as `{word.text}[{length.span.text}]`."
+        require("string-in-parentheses", diagnostics, "E0121", message, opening.span, instead)
     return tree.StringSpec(_is_wide(word), length, over(word, closing))
 
 
@@ -145,6 +150,18 @@ def further_name(values: list[Any], _diagnostics: Diagnostics) -> list[tree.Name
 
 
 @action
+def initial_items(values: list[Any], diagnostics: Diagnostics) -> tree.Initial | None:
+    """What stands behind `:=`. Several values, or `3(0)`, are an array whose brackets are left out."""
+    sign, items = values
+    if not items or (len(items) == 1 and not isinstance(items[0], tree.Repeat)):
+        return items[0] if items else None
+    message = "The initial values of an array stand in square brackets."
+    span = over(items[0], items[-1])
+    require("bare-array", diagnostics, "E0129", message, sign.span, "Such as `[1, 2, 3]`.")
+    return tree.ArrayInitial(tuple(items), span)
+
+
+@action
 def array_initial(values: list[Any], _diagnostics: Diagnostics) -> tree.ArrayInitial:
     opening, items, closing = values
     return tree.ArrayInitial(tuple(items), over(opening, closing))
@@ -199,6 +216,9 @@ def section(values: list[Any], diagnostics: Diagnostics) -> tree.VarSection:
     word, qualifiers, variables, end = values
     kind = tree.Section(word.type)
     retention: tree.Retention | None = None
+    if kind is tree.Section.STATIC:
+        message = f"`{word.text}` is no section of the standard."
+        require("static-variables", diagnostics, "E0129", message, word.span, "Write VAR, in a block or a program.")
     for token in qualifiers:
         if token.type == "ACCESS":
             not_supported("E0904", f"Access specifiers (`{token.text}`) are", token.span, diagnostics)
@@ -210,6 +230,8 @@ def section(values: list[Any], diagnostics: Diagnostics) -> tree.VarSection:
         ):
             not_supported("E0912", f"`{declared.text}` (6.6.1.6) is", declared.span, diagnostics)
     constant = any(token.type == "CONSTANT" for token in qualifiers)
+    if kind is tree.Section.INPUT and accepts(word.file, "constant-input"):
+        constant = False  # a constant only for whoever calls it in a drawing: its value comes from outside
     return tree.VarSection(kind, constant, retention, tuple(variables), over(word, end))
 
 

@@ -16,13 +16,16 @@ BLOCK_ENDS = {
 }
 """The statements that hold others, with the word that ends each."""
 
+OPTIONAL_SEMICOLON = frozenset({*BLOCK_ENDS.values(), "END_STRUCT"})
+"""Words behind which some dialects need no `;`."""
+
 POU_ENDS = {"FUNCTION": "END_FUNCTION", "FUNCTION_BLOCK": "END_FUNCTION_BLOCK", "PROGRAM": "END_PROGRAM"}
 
 FOREIGN_ENDS = {"CLASS": "END_CLASS", "INTERFACE": "END_INTERFACE", "NAMESPACE": "END_NAMESPACE"}
 """Declarations that are recognised and not supported yet."""
 
 SECTION_WORDS = (
-    "VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_GLOBAL", "VAR_EXTERNAL",
+    "VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_STAT", "VAR_GLOBAL", "VAR_EXTERNAL",
     "VAR_ACCESS", "VAR_CONFIG",
 )  # fmt: skip
 
@@ -43,7 +46,7 @@ KEYWORDS: dict[str, str] = {
         "CONSTANT", "RETAIN", "NON_RETAIN", "AT", "R_EDGE", "F_EDGE", "REF_TO", "REF", "NULL",
         "THEN", "ELSIF", "ELSE", "TO", "BY", "DO", "UNTIL", "EXIT", "CONTINUE", "RETURN",
         "AND", "OR", "XOR", "NOT", "MOD", "USING", "EXTENDS", "IMPLEMENTS", "THIS", "SUPER",
-        "INITIAL_STEP", "END_STEP", "END_TRANSITION", "END_ACTION",
+        "AND_THEN", "OR_ELSE", "INITIAL_STEP", "END_STEP", "END_TRANSITION", "END_ACTION",
     )
 }  # fmt: skip
 """Reserved words with the type of their token."""
@@ -55,6 +58,9 @@ ACCESS_WORDS = frozenset({"PUBLIC", "PROTECTED", "PRIVATE", "INTERNAL"})
 CLASS_WORDS = frozenset({"FINAL", "ABSTRACT"})
 SFC_WORDS = frozenset({"STEP", "TRANSITION", "ACTION"})
 CONFIGURATION_WORDS = frozenset({"TASK", "ON", "WITH"})
+
+DIALECT_WORDS = {"VAR_STAT": "static-variables", "AND_THEN": "short-circuit", "OR_ELSE": "short-circuit"}
+"""Words that are names in the standard, with the extension that makes them keywords."""
 
 IL_OPERATORS = frozenset({
     "LD", "LDN", "ST", "STN", "ST?", "NOT", "S", "R", "S1", "R1", "CLK", "CU", "CD", "PV", "IN", "PT", "AND", "&", "OR",

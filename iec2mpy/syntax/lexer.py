@@ -9,9 +9,10 @@ from __future__ import annotations
 import re
 
 from iec2mpy.source.diagnostics import Diagnostics
+from iec2mpy.source.dialects import accepts, require
 from iec2mpy.source.spans import SourceFile, Span
 from iec2mpy.syntax import literals
-from iec2mpy.syntax.keywords import KEYWORDS
+from iec2mpy.syntax.keywords import DIALECT_WORDS, KEYWORDS
 from iec2mpy.syntax.tokens import Token
 from iec2mpy.syntax.tree import Literal
 
@@ -51,10 +52,18 @@ _TYPOGRAPHIC_QUOTES = {"“": "”", "„": "“", "”": "”", "‘": "’", "
 
 _COMMENT_MARKS = {"(*": ("*)", re.compile(r"\(\*|\*\)")), "/*": ("*/", re.compile(r"/\*|\*/"))}
 _DRAWN = re.compile(r"\{\s*(LD|FBD)\s*\}", re.IGNORECASE)
+_C_CODE = re.compile(r"\{\{|\{[^}]*;[^}]*")
 _DRAWN_END = re.compile(r"^[ \t]*END_(?:PROGRAM|FUNCTION|FUNCTION_BLOCK|METHOD|ACTION|TRANSITION)\b", re.I | re.M)
 _DIRECT = re.compile(r"%([IQM])([XBWDL]?)(\d+(?:\.\d+)*)\Z", re.IGNORECASE)
 _PART = re.compile(r"%(?:[XBWDL]?\d+|[XBWDL]\d+\.\d+)\Z", re.IGNORECASE)
 _PARTIAL_DIRECT = re.compile(r"%[IQM][XBWDL]?\*\Z", re.IGNORECASE)
+
+
+_OPERAND_ENDS = frozenset({
+    "NAME", "RSQB", "RPAR", "CARET", "LITERAL", "INTEGER", "ENUM_VALUE", "DIRECT", "PART", "NULL",
+})  # fmt: skip
+_NO_ARGUMENTS = re.compile(r"\s*\(\s*\)")
+_DECLARES = re.compile(r"\s+[A-Za-z_]")
 
 
 def tokenize(file: SourceFile, diagnostics: Diagnostics) -> list[Token]:
@@ -76,9 +85,17 @@ def tokenize(file: SourceFile, diagnostics: Diagnostics) -> list[Token]:
         piece = text[start:at]
         if kind == "name":
             token_type = keyword(piece.upper(), "NAME")
+            if token_type in DIALECT_WORDS and not _is_keyword(file, at, token_type, tokens):
+                token_type = "NAME"
             if token_type == "NAME":
+                if at < len(text) and text[at] == "=" and piece in "SRsr" and _ends_operand(tokens):
+                    at += 1
+                    append(Token("LATCH", text[start:at], start, at, file))
+                    continue
                 bad = ("_" in piece or not piece.isascii()) and _check_name(piece, Span(file, start, at), diagnostics)
                 append(Token("NAME", piece, start, at, file, None, bad))
+            elif token_type == "ELEMENTARY" and (called := _clock(file, piece, start, at, diagnostics)) is not None:
+                append(called)
             elif token_type == "LITERAL":
                 value = Literal("bool", piece.upper() == "TRUE", None, Span(file, start, at))
                 append(Token(token_type, piece, start, at, file, value))
@@ -102,6 +119,28 @@ def tokenize(file: SourceFile, diagnostics: Diagnostics) -> list[Token]:
                 append(token)
             elif at == len(text):
                 cut_off = text[at - 1] != "}"
+
+
+def _ends_operand(tokens: list[Token]) -> bool:
+    """Whether a value may end with the last token: then no name can follow."""
+    return bool(tokens) and tokens[-1].type in _OPERAND_ENDS
+
+
+def _is_keyword(file: SourceFile, end: int, word: str, tokens: list[Token]) -> bool:
+    """Whether a word of `DIALECT_WORDS` is one here: where the dialect has it, and where it can be no name."""
+    if accepts(file, DIALECT_WORDS[word]):
+        return True
+    return _DECLARES.match(file.text, end) is not None if word == "VAR_STAT" else _ends_operand(tokens)
+
+
+def _clock(file: SourceFile, word: str, start: int, end: int, diagnostics: Diagnostics) -> Token | None:
+    """`TIME` of `TIME()`: the name of a function, where the dialect has it."""
+    if word.upper() != "TIME" or not (brackets := _NO_ARGUMENTS.match(file.text, end)):
+        return None
+    span = Span(file, start, brackets.end())
+    instead = "A TON measures spans of time."
+    known = require("time-call", diagnostics, "E0129", "`TIME()` is no function of the standard.", span, instead)
+    return Token("NAME", word, start, end, file, None, not known)
 
 
 def _check_name(name: str, span: Span, diagnostics: Diagnostics) -> bool:
@@ -203,7 +242,8 @@ def _percent(file: SourceFile, start: int, end: int, diagnostics: Diagnostics) -
 
 
 def _pragma(file: SourceFile, start: int, _end: int, diagnostics: Diagnostics) -> tuple[Token | None, int]:
-    """Pragmas are skipped (6.2); `{LD}` and `{FBD}` make one token with all of the drawing."""
+    """Pragmas are skipped (6.2), but not C, which MATIEC and OpenPLC write so; `{LD}` and `{FBD}` make one token with
+    all of the drawing."""
     drawn = _DRAWN.match(file.text, start)
     if drawn:
         stop = _DRAWN_END.search(file.text, drawn.end())
@@ -213,7 +253,19 @@ def _pragma(file: SourceFile, start: int, _end: int, diagnostics: Diagnostics) -
     if end < 0:
         diagnostics.add("E0104", "This pragma is never closed: `}` is missing.", Span(file, start, start + 1))
         return None, len(file.text)
-    return None, end + 1
+    if _C_CODE.match(file.text, start, end) and not _is_behind_bracket(file.text, start):
+        message = "This is Inline C: it cannot run here, as a board runs MicroPython, and no C compiler takes part."
+        diagnostics.add("E0130", message, Span(file, start, start + 1), "Write what it does in Structured Text.")
+        end = file.text.find("}}", start) + 1 if file.text.startswith("{{", start) else end
+    return None, max(end, start) + 1
+
+
+def _is_behind_bracket(text: str, at: int) -> bool:
+    """Whether `)` stands before: then this is a function in C, and that nothing of it is ST is told elsewhere."""
+    at -= 1
+    while at >= 0 and text[at].isspace():
+        at -= 1
+    return at >= 0 and text[at] == ")" and text[at - 1 : at] != "*"
 
 
 def _other(file: SourceFile, start: int, end: int, diagnostics: Diagnostics) -> tuple[Token | None, int]:

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from iec2mpy.source.dialects import with_dialects
 from iec2mpy.source.spans import Span
-from iec2mpy.syntax.keywords import BLOCK_ENDS, KEYWORDS, STATEMENT_WORDS
+from iec2mpy.syntax.keywords import BLOCK_ENDS, KEYWORDS, OPTIONAL_SEMICOLON, STATEMENT_WORDS
 from iec2mpy.syntax.lexer import SYMBOLS
 from iec2mpy.syntax.situation import Finding, Situation
 from iec2mpy.syntax.tokens import Token
@@ -192,9 +193,9 @@ def _semicolon(s: Situation) -> Finding | None:
         return None
     starts = s.token.type in _ENDS_STATEMENT or (s.token.type == "NAME" and s.following.type in _CONTINUES_NAME)
     if s.new_line or starts:
-        return Finding(
-            "E0113", f"`;` is missing after {_text(s.previous)}.", _missing_after(s.previous), insert="SEMICOLON"
-        )
+        hint = with_dialects("end-without-semicolon") if s.previous.type in OPTIONAL_SEMICOLON else None
+        message = f"`;` is missing after {_text(s.previous)}."
+        return Finding("E0113", message, _missing_after(s.previous), hint, insert="SEMICOLON")
     return None
 
 
@@ -229,15 +230,6 @@ def _declaration(s: Situation) -> Finding | None:
     if token.type in ("SEMICOLON", "ASSIGN", "EQ") and s.accepts("COLON", "ELEMENTARY", "SEMICOLON"):
         return Finding(
             "E0119", f"The type of {_text(previous)} is missing.", previous.span, f"Such as `{previous.text} : INT;`."
-        )
-    if token.type == "LPAR" and previous.type == "STRING":
-        message = f"The length of a {previous.text.upper()} stands in square brackets."
-        return Finding(
-            "E0121",
-            message,
-            token.span,
-            f"Such as `{previous.text}[20]`.",
-            drop=3 if s.following.type == "INTEGER" else 0,
         )
     if token.type in ("RSQB", "COMMA") and s.accepts("RANGE") and not s.accepts(token.type):
         return Finding(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from iec2mpy.source.diagnostics import Diagnostics
+from iec2mpy.source.dialects import accepts
 from iec2mpy.source.spans import SourceFile, Span
 from iec2mpy.syntax import (
     declaration_actions,  # noqa: F401 - enters its functions into the table of actions
@@ -11,7 +12,7 @@ from iec2mpy.syntax import (
     tree,
 )
 from iec2mpy.syntax.balance import balance, join_split_words
-from iec2mpy.syntax.keywords import IL_OPERATORS, SFC_WORDS
+from iec2mpy.syntax.keywords import IL_OPERATORS, OPTIONAL_SEMICOLON, SFC_WORDS
 from iec2mpy.syntax.lexer import tokenize
 from iec2mpy.syntax.splitter import Part, PouPart, split
 from iec2mpy.syntax.tokens import Token
@@ -33,12 +34,25 @@ def parse(file: SourceFile, diagnostics: Diagnostics) -> tree.CompilationUnit:
             )
         return tree.CompilationUnit(())
     declarations: list[tree.Declaration] = []
+    if accepts(file, "end-without-semicolon"):
+        tokens = with_semicolons(tokens)
     for part in split(join_split_words(tokens, diagnostics), diagnostics):
         if isinstance(part, PouPart):
             declarations.append(_pou(part, diagnostics))
         else:
             declarations += _declarations(part, diagnostics)
     return tree.CompilationUnit(tuple(declarations))
+
+
+def with_semicolons(tokens: list[Token]) -> list[Token]:
+    """The tokens with a `;` behind each END_IF and its like that has none."""
+    ended: list[Token] = []
+    for token in tokens:
+        if ended and ended[-1].type in OPTIONAL_SEMICOLON and token.type not in ("SEMICOLON", "ASSIGN"):
+            before = ended[-1]
+            ended.append(Token("SEMICOLON", ";", before.end, before.end, before.file))
+        ended.append(token)
+    return ended
 
 
 def _declarations(part: Part, diagnostics: Diagnostics) -> list[tree.Declaration]:

@@ -46,6 +46,9 @@ def result_type(cursor: Cursor, word: Token) -> list[Token] | None:
     return tokens
 
 
+_LENGTH = {"LSQB": "RSQB", "LPAR": "RPAR"}
+
+
 def _type_tokens(cursor: Cursor) -> list[Token] | None:
     """The tokens of a type, ended by `$END`, or None where none is written; the grammar finds what is wrong inside."""
     tokens: list[Token] = []
@@ -53,13 +56,15 @@ def _type_tokens(cursor: Cursor) -> list[Token] | None:
         tokens.append(cursor.take())
     if cursor.token.type == "ARRAY":
         _take_up_to(cursor, "OF", tokens)
-    while cursor.token.type in ("ELEMENTARY", "STRING", *NAMES) and cursor.peek().type not in ("ASSIGN", "LPAR"):
+    while cursor.token.type in ("ELEMENTARY", "STRING", *NAMES) and (
+        cursor.token.type == "STRING" or cursor.peek().type not in ("ASSIGN", "LPAR")
+    ):
         tokens.append(cursor.take())
         if cursor.token.type != "DOT":
             break
         tokens.append(cursor.take())
-    if tokens and tokens[-1].type == "STRING" and cursor.token.type == "LSQB":
-        _take_up_to(cursor, "RSQB", tokens)
+    if tokens and tokens[-1].type == "STRING" and cursor.token.type in _LENGTH:
+        _take_up_to(cursor, _LENGTH[cursor.token.type], tokens)
     return [*tokens, tokens[-1].inserted_after("$END", cursor.token.text)] if tokens else None
 
 

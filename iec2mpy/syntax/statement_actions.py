@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from iec2mpy.source.diagnostics import Diagnostics
+from iec2mpy.source.dialects import require
 from iec2mpy.source.spans import Span
 from iec2mpy.syntax import tree
 from iec2mpy.syntax.actions import action, not_supported, over
@@ -23,6 +24,20 @@ class _CaseLabel:
 def assignment(values: list[Any], _diagnostics: Diagnostics) -> tree.AssignStmt:
     target, _, value, _ = values
     return tree.AssignStmt(target, value, over(target, value))
+
+
+@action
+def latch(values: list[Any], diagnostics: Diagnostics) -> tree.IfStmt:
+    """`target S= value` is `IF value THEN target := TRUE; END_IF;`, R= the same with FALSE."""
+    target, sign, value, _ = values
+    to = sign.text[0].upper() == "S"
+    constant = "TRUE" if to else "FALSE"
+    instead = f"Write `IF {value.span.text} THEN {target.span.text} := {constant}; END_IF;`."
+    message = f"`{sign.text}` is not an operator of the standard."
+    require("set-reset-assignment", diagnostics, "E0129", message, sign.span, instead)
+    span = over(target, value)
+    assigned = tree.AssignStmt(target, tree.Literal("bool", to, None, sign.span), span)
+    return tree.IfStmt((tree.Branch(value, (assigned,), span),), None, span)
 
 
 @action

@@ -413,6 +413,7 @@ class Section(Enum):
     OUTPUT = "VAR_OUTPUT"
     IN_OUT = "VAR_IN_OUT"
     TEMP = "VAR_TEMP"
+    STATIC = "VAR_STAT"
     GLOBAL = "VAR_GLOBAL"
     EXTERNAL = "VAR_EXTERNAL"
 

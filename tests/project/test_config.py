@@ -27,17 +27,24 @@ def test_defaults(make_project: MakeProject) -> None:
     assert project.sources == (directory / "src" / "main.st",)
     assert project.interval == 10_000
     assert project.emitter == "viper"
+    assert project.dialect == "strict"
     assert project.warnings == ()
 
 
 def test_everything_said(make_project: MakeProject) -> None:
-    directory = make_project('sources = ["*.st", "src/*.st"]\ninterval = "T#1s500ms"\nemitter = "portable"')
+    lines = 'sources = ["*.st", "src/*.st"]\ninterval = "T#1s500ms"\nemitter = "portable"\ndialect = "codesys"'
+    directory = make_project(lines)
     (directory / "b.st").write_text("")
     (directory / "a.st").write_text("")
     project = load_project(directory)
     assert project.sources == (directory / "a.st", directory / "b.st", directory / "src" / "main.st")
     assert project.interval == 1_500_000
     assert project.emitter == "portable"
+    assert project.dialect == "codesys"
+
+
+def test_another_dialect_than_the_files(make_project: MakeProject) -> None:
+    assert load_project(make_project('dialect = "twincat"'), dialect="matiec").dialect == "matiec"
 
 
 def test_another_board_than_the_files(make_project: MakeProject) -> None:

@@ -10,6 +10,7 @@ from iec2mpy.ir.build.conversions import convert, real_result
 from iec2mpy.ir.build.parts import read_part, with_part
 from iec2mpy.ir.build.places import fixed, lower_place
 from iec2mpy.ir.build.stores import assign
+from iec2mpy.ir.walk import may_fault
 from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
 
@@ -47,6 +48,8 @@ def _lower(context: Context, expr: t.Expr) -> n.Expr:
             return convert(context, lower_expr(context, operand), stored_type(expr.type), expr.truncate)
         case t.Unary(operator, operand):
             return _unary(operator, lower_expr(context, operand))
+        case t.Binary("AND_THEN" | "OR_ELSE" as operator, left, right):
+            return _short_circuit(context, operator, left, right)
         case t.Binary(operator, left, right) if ty.value_type(left.type) is None:
             return _compared(context, operator, left, right)
         case t.Binary(operator, left, right):
@@ -58,6 +61,20 @@ def _lower(context: Context, expr: t.Expr) -> n.Expr:
             result = calls.call_function(context, expr)
             assert result is not None, "the checker lets only functions with a result into expressions"
             return context.spill(n.Load(result, stored_type(expr.type)))
+
+
+def _short_circuit(context: Context, operator: str, left: t.Expr, right: t.Expr) -> n.Expr:
+    """The right side in a branch of its own, unless evaluating it does nothing that could be noticed."""
+    first = lower_expr(context, left)
+    with context.block() as branch:
+        second = lower_expr(context, right)
+    if not branch and not may_fault(second):
+        return n.Op("and" if operator == "AND_THEN" else "or", first, second, ty.BOOL)
+    result = context.spill(first)
+    branch.append(n.SetLocal(result, second))
+    then, otherwise = (tuple(branch), ()) if operator == "AND_THEN" else ((), tuple(branch))
+    context.emit(n.If(result, then, otherwise))
+    return result
 
 
 def lower_aggregate(context: Context, expr: t.Expr) -> n.Place:
