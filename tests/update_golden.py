@@ -1,4 +1,4 @@
-"""Writes anew what the golden cases expect: `python -m tests.update_golden`. Look at the difference before you keep it."""
+"""Writes anew what the golden cases expect: `python -m tests.update_golden`. Look at what changes."""
 
 from __future__ import annotations
 

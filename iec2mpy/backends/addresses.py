@@ -27,6 +27,9 @@ class Addresses:
     def subscript(self, place: n.Place, array: str) -> Text:
         """The number of the slot where the place begins, in V or in O."""
         position, path, dynamic = self._position(place, array)
+        if path and array == "O" and self.layout.size_of(place.type).v:
+            # the same variable has another position in V
+            path = (*path, "O")
         dynamic = [text for text in dynamic if text.code != "0"]
         if position or not dynamic:
             named = Text(self.names.name(path, position, self._comment(place))) if path else number(position)
@@ -39,10 +42,6 @@ class Addresses:
         for term in dynamic[1:]:
             text = infix(text, "+", term)
         return text
-
-    def has_part(self, declared: ty.Type, array: str) -> bool:
-        """Whether anything of the type lives in the array."""
-        return self.layout.size_of(declared).of(array) > 0
 
     def reference(self, place: n.Place) -> Text:
         """The one slot's worth of a reference to the place: V in the low 16 bits, O above."""

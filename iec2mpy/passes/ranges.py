@@ -220,6 +220,8 @@ def _simplifier(facts: _Facts) -> Callable[[n.Expr], n.Expr]:
             case n.Op(name, left, right) if name in _MIRRORED and _is_integer(left):
                 decided = _decided(expr, name, bounds(left, facts.of), bounds(right, facts.of))
                 return expr if decided is not expr and may_fault(expr) else decided
+            case n.Op("div" | "mod", left, n.Const() as divisor) if _is_integer(left):
+                return _by_power_of_two(expr, left, divisor) if bounds(left, facts.of)[0] >= 0 else expr
             case n.Local(number, value_type, None, None) if number in facts.locals:
                 # later stages see the bounds without the way that led to them
                 low, high = facts.locals[number]
@@ -238,6 +240,16 @@ def _wrap(operand: n.Expr, to: ty.ElementaryType, facts: _Facts) -> n.Expr:
     if to.low <= low and high <= to.high:
         return _retyped(operand, to)
     return n.Wrap(_unwrapped(operand, to.bits), to)
+
+
+def _by_power_of_two(expr: n.Op, left: n.Expr, divisor: n.Const) -> n.Expr:
+    """Of a number that is not negative, a division by 2^n is a shift, and its rest are the low bits."""
+    value = divisor.number
+    if value <= 0 or value & (value - 1):
+        return expr
+    if expr.name == "mod":
+        return n.Op("and", left, n.Const(value - 1, divisor.type), expr.type)
+    return n.Op("shr", left, n.Const(value.bit_length() - 1, divisor.type), expr.type)
 
 
 def _retyped(expr: n.Expr, to: ty.ElementaryType) -> n.Expr:
