@@ -3,7 +3,7 @@
 The file is read line by line when something is asked for, as a board has no room for a table of names.
 """
 
-from mcu_runtime.arithmetic import f32
+from mcu_runtime.arithmetic import bits_to_real, f32, real_to_bits
 
 
 class Names:
@@ -24,7 +24,7 @@ class Names:
             if not first <= index <= last:
                 raise KeyError("%s: the subscript %d is not in %d..%d" % (path, index, first, last))
             slot += (index - first) * stride
-        enumeration = self._line("=" + type_name) if array == "V" and type_name not in _ELEMENTARY else None
+        enumeration = self._line("=" + type_name) if array != "O" and type_name not in _ELEMENTARY else None
         members = {}
         for member in enumeration[1:] if enumeration else ():
             name, number = member.split(":")
@@ -52,20 +52,50 @@ _ELEMENTARY = ("BOOL", "SINT", "INT", "DINT", "USINT", "UINT", "UDINT", "BYTE", 
 class Place:
     """One variable. Values: BOOL bool, integers and bit strings int, TIME int (ms), REAL float, STRING and WSTRING str,
     CHAR (a WCHAR too) a str of one character, an enumeration the name of the value. `low` and `high`: of a STRING 0 and
-    its capacity, of a REAL None."""
+    its capacity, of a REAL None.
+
+    `array` is V or O; or B and a number of bits, for a variable among bytes that others share: each byte is in a slot
+    of V, and `slot` counts bits from slot 0 on."""
 
     def __init__(self, path, type_name, array, slot, low, high, members):
         self.path = path
         self.type = type_name
         self.array = array
         self.slot = slot
+        self._bits = int(array[1:]) if array[0] == "B" else 0
+        self._is_object = array == "O" or low is None
         self.low = low
         self.high = high
         self._members = members
 
+    def load(self, program):
+        """What is stored."""
+        if not self._bits:
+            return (program.O if self.array == "O" else program.V)[self.slot]
+        number = 0
+        for i, at in enumerate(self._bytes()):
+            number |= program.V[at] << 8 * i
+        number = number >> (self.slot & 7) & ((1 << self._bits) - 1)
+        if self.low is None:
+            return bits_to_real(number)
+        return number - (1 << self._bits) if self.low < 0 and number >> (self._bits - 1) else number
+
+    def store(self, program, stored):
+        """Stores what `encode` gave; other variables in the same bytes keep their bits."""
+        if not self._bits:
+            (program.O if self.array == "O" else program.V)[self.slot] = stored
+            return
+        ones = (1 << self._bits) - 1 << (self.slot & 7)
+        number = (real_to_bits(stored) if self.low is None else stored) << (self.slot & 7) & ones
+        for i, at in enumerate(self._bytes()):
+            program.V[at] = program.V[at] & ~(ones >> 8 * i) | number >> 8 * i & 0xFF
+
+    def _bytes(self):
+        return range(self.slot >> 3, (self.slot + self._bits + 7) >> 3)
+
     def decode(self, stored):
         """The value that is stored as `stored`."""
-        if self.array == "O":
+        if self._is_object:
             return stored
         if self.type == "BOOL":
             return stored != 0
@@ -78,7 +108,7 @@ class Place:
 
     def encode(self, value):
         """How `value` is stored; ValueError where the declared type does not have it."""
-        if self.array == "O":
+        if self._is_object:
             return self._object(value)
         if self._members:
             for name, number in self._members.items():

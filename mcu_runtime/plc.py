@@ -91,9 +91,8 @@ def step(n=1):
 def read(name):
     """The value of a variable, such as `main.motor` or `main.level[3]`."""
     place = _names.resolve(name)
-    array = program.V if place.array == "V" else program.O
     with _background.lock:
-        stored = array[place.slot]
+        stored = place.load(program)
     return place.decode(stored)
 
 
@@ -101,9 +100,8 @@ def write(name, value):
     """Set a variable. ValueError if its type does not have this value."""
     place = _names.resolve(name)
     stored = place.encode(value)
-    array = program.V if place.array == "V" else program.O
     with _background.lock:
-        array[place.slot] = stored
+        place.store(program, stored)
 
 
 def status():

@@ -8,40 +8,46 @@
         ("adc", slot, pin, low, high),                # what the lowest and the highest voltage mean
         ("pwm", slot, pin, freq, low, high, safe),    # low: always off, high: always on
     )
+
+Where variables share bytes, each in a slot of V, a row has one value more: of a digital channel the number of its bit
+in the slot, of an analog one True, as its high byte is in the next slot.
 """
 
 _FULL = 65535
 
 
 class DigitalInput:
-    def __init__(self, machine, slot, pin, pull, invert):
+    def __init__(self, machine, slot, pin, pull, invert, bit=0):
         self.slot = slot
+        self._bit = bit
         self._invert = 1 if invert else 0
         pulls = {"up": "PULL_UP", "down": "PULL_DOWN"}
         self._pin = machine.Pin(pin, machine.Pin.IN, getattr(machine.Pin, pulls[pull]) if pull else None)
 
     def read(self, V):
-        V[self.slot] = self._pin.value() ^ self._invert
+        V[self.slot] = V[self.slot] & ~(1 << self._bit) | (self._pin.value() ^ self._invert) << self._bit
 
 
 class DigitalOutput:
-    def __init__(self, machine, slot, pin, invert, safe):
+    def __init__(self, machine, slot, pin, invert, safe, bit=0):
         self.slot = slot
+        self._mask = 1 << bit
         self._invert = 1 if invert else 0
         self._safe = safe ^ self._invert
         # With its value from the first: between two calls a relay would click.
         self._pin = machine.Pin(pin, machine.Pin.OUT, value=self._safe)
 
     def write(self, V):
-        self._pin.value((1 if V[self.slot] else 0) ^ self._invert)
+        self._pin.value((1 if V[self.slot] & self._mask else 0) ^ self._invert)
 
     def safe(self):
         self._pin.value(self._safe)
 
 
 class AnalogInput:
-    def __init__(self, machine, slot, pin, low, high):
+    def __init__(self, machine, slot, pin, low, high, in_bytes=False):
         self.slot = slot
+        self._in_bytes = in_bytes
         self._low = low
         self._span = high - low
         self._adc = machine.ADC(machine.Pin(pin))
@@ -49,12 +55,17 @@ class AnalogInput:
             self._adc.atten(machine.ADC.ATTN_11DB)
 
     def read(self, V):
-        V[self.slot] = self._low + (self._adc.read_u16() * self._span + _FULL // 2) // _FULL
+        value = self._low + (self._adc.read_u16() * self._span + _FULL // 2) // _FULL
+        if self._in_bytes:
+            V[self.slot + 1] = value >> 8 & 0xFF
+            value &= 0xFF
+        V[self.slot] = value
 
 
 class PwmOutput:
-    def __init__(self, machine, slot, pin, freq, low, high, safe):
+    def __init__(self, machine, slot, pin, freq, low, high, safe, in_bytes=False):
         self.slot = slot
+        self._in_bytes = in_bytes
         self._low = low
         self._span = high - low
         self._safe = safe
@@ -71,7 +82,12 @@ class PwmOutput:
             self._written = duty
 
     def write(self, V):
-        self._put(self._duty(V[self.slot]))
+        value = V[self.slot]
+        if self._in_bytes:
+            value |= V[self.slot + 1] << 8
+            if self._low < 0 and value > 0x7FFF:
+                value -= 0x10000
+        self._put(self._duty(value))
 
     def safe(self):
         self._put(self._duty(self._safe))

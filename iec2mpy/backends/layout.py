@@ -59,13 +59,16 @@ class Record:
 class Layout:
     """The positions of everything.
 
-    `located` by address: all variables at one address are one storage. `instances` by the number of the program. A
+    `located` by address: all variables at one address are one storage, except for those that lie among the bytes of
+    `shared`: these are `sharing`. `instances` by the number of the program. A
     constant too large for the code of a 32-bit viper has a slot of its own (`constants`).
     """
 
     module: n.Module
     globals: dict[Variable, Size] = field(default_factory=dict)
     located: dict[str, tuple[Variable, Size]] = field(default_factory=dict)
+    shared: dict[Variable, Size] = field(default_factory=dict)
+    sharing: list[Variable] = field(default_factory=list)
     instances: list[Size] = field(default_factory=list)
     frames: dict[Pou, Size] = field(default_factory=dict)
     constants: dict[int, int] = field(default_factory=dict)
@@ -138,13 +141,22 @@ class Layout:
 
     def place_global(self, variable: Variable) -> None:
         """Gives a global or located variable its place, unless it has one."""
-        if variable.address is None:
+        if variable.shared is not None:
+            self.sharing.append(variable)
+        elif variable.address is None:
             self.globals[variable] = self.place(self.size_of(variable.type))
         elif variable.address not in self.located:
             self.located[variable.address] = variable, self.place(self.size_of(variable.type))
 
     def global_position(self, variable: Variable) -> Size:
+        if variable in self.shared:
+            return self.shared[variable]
         return self.globals[variable] if variable.address is None else self.located[variable.address][1]
+
+    def first_bit(self, variable: Variable) -> int:
+        """Where a variable among shared bytes begins: 8 times the slot of V of a byte, and the bit in it."""
+        assert variable.shared is not None
+        return 8 * self.shared[variable.shared.storage].v + variable.shared.bit
 
     def constant(self, value: int) -> int:
         """The slot of V that holds a constant."""
@@ -159,7 +171,7 @@ class Layout:
 
     def storages(self) -> Iterator[tuple[ty.Type, Value, Size]]:
         """Everything that has a place and an initial value: (type, value, position)."""
-        for variable, at in (*self.globals.items(), *self.located.values()):
+        for variable, at in (*self.globals.items(), *self.located.values(), *self.shared.items()):
             yield variable.type, variable.initial, at
         records = [
             *(
@@ -175,7 +187,7 @@ class Layout:
 
     def retained(self) -> Iterator[tuple[Size, Size]]:
         """The positions and sizes of what keeps its value over a warm restart."""
-        for variable, at in (*self.globals.items(), *self.located.values()):
+        for variable, at in (*self.globals.items(), *self.located.values(), *self.shared.items()):
             yield from self._retained_in(variable.type, at, bool(variable.retain))
         for run, base in zip(self.module.programs, self.instances, strict=True):
             yield from self._retained_in_record(self.instance_record(run.pou), base, run.retain)
@@ -231,6 +243,8 @@ def lay_out(module: n.Module) -> Layout:
     located = [v for pou in module.bodies for v in pou.variables.values() if v.address is not None]
     for variable in (*module.globals, *located):
         layout.place_global(variable)
+    for storage in module.storages:
+        layout.shared[storage] = layout.place(layout.size_of(storage.type))
     for run in module.programs:
         layout.instances.append(layout.place(layout.instance_record(run.pou).size))
     for pou in module.bodies:

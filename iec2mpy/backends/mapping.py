@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from iec2mpy.backends.layout import Layout, Size
+from iec2mpy.backends.layout import NOWHERE, Layout, Size
 from iec2mpy.backends.memory_map import Dimension, MappedVariable, MemoryMap, Site
 from iec2mpy.semantics import types as ty
+from iec2mpy.semantics.packing import bit_size, element_bits, field_offsets
 from iec2mpy.semantics.typed import Variable
 from iec2mpy.semantics.types import Kind
 from iec2mpy.syntax.tree import PouKind, Section
@@ -28,6 +29,10 @@ def _variables(layout: Layout, enums: dict[str, dict[str, int]]) -> Iterator[Map
     named: set[str] = set()
     for run, base in zip(layout.module.programs, layout.instances, strict=True):
         for variable in run.pou.variables.values():
+            if variable.shared is not None:
+                named.add(variable.address or "")
+                yield from _shared_leaves(layout, variable, f"{run.name}.{variable.name}", enums)
+                continue
             position = _position(layout, run.pou, variable, base)
             if position is None:
                 continue
@@ -37,6 +42,9 @@ def _variables(layout: Layout, enums: dict[str, dict[str, int]]) -> Iterator[Map
     for address, (variable, at) in layout.located.items():
         if address not in named:
             yield from _leaves(layout, variable, variable.name, at, enums)
+    for variable in layout.sharing:
+        if variable.owner is None and variable.name not in named:
+            yield from _shared_leaves(layout, variable, variable.name, enums)
 
 
 def _position(layout: Layout, pou: object, variable: Variable, base: Size) -> Size | None:
@@ -56,13 +64,24 @@ def _leaves(
     layout: Layout, variable: Variable, path: str, at: Size, enums: dict[str, dict[str, int]]
 ) -> Iterator[MappedVariable]:
     for leaf in _type_leaves(layout, variable.type, path, at, {"V": (), "O": ()}, enums):
-        yield replace(
-            leaf,
-            address=variable.address,
-            constant=variable.constant,
-            file=variable.span.file.name,
-            line=variable.span.line,
-        )
+        yield _declared(leaf, variable)
+
+
+def _shared_leaves(
+    layout: Layout, variable: Variable, path: str, enums: dict[str, dict[str, int]]
+) -> Iterator[MappedVariable]:
+    for leaf in _packed_leaves(variable.type, path, layout.first_bit(variable), (), enums):
+        yield _declared(leaf, variable)
+
+
+def _declared(leaf: MappedVariable, variable: Variable) -> MappedVariable:
+    return replace(
+        leaf,
+        address=variable.address,
+        constant=variable.constant,
+        file=variable.span.file.name,
+        line=variable.span.line,
+    )
 
 
 def _type_leaves(
@@ -86,6 +105,23 @@ def _type_leaves(
                 yield from _type_leaves(layout, variable.type, inner_path, at + offset, dimensions, enums)
     else:
         yield _leaf(shape, str(declared), path, at, dimensions, enums)
+
+
+def _packed_leaves(
+    declared: ty.Type, path: str, bit: int, dimensions: tuple[Dimension, ...], enums: dict[str, dict[str, int]]
+) -> Iterator[MappedVariable]:
+    """The leaves of a variable among bytes; positions and strides are in bits."""
+    shape = ty.unaliased(declared)
+    if isinstance(shape, ty.ArrayType):
+        inner = (*dimensions, *_dimensions(shape, element_bits(shape) or 0))
+        path += f"[{',' * (len(shape.bounds) - 1)}]"
+        yield from _packed_leaves(shape.element, path, bit, inner, enums)
+    elif isinstance(shape, ty.StructType):
+        for variable, offset in field_offsets(shape).items():
+            yield from _packed_leaves(variable.type, f"{path}.{variable.name}", bit + offset, dimensions, enums)
+    else:
+        leaf = _leaf(shape, str(declared), path, NOWHERE, {"V": dimensions, "O": dimensions}, enums)
+        yield replace(leaf, array="B", slot=bit, bits=bit_size(shape) or 0)
 
 
 def _dimensions(array: ty.ArrayType, stride: int) -> list[Dimension]:

@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 
 from iec2mpy.backends.coding import decode, encode
+from iec2mpy.backends.shared_bytes import Patch, joined, places_of, split
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +28,10 @@ class Dimension:
 @dataclass(frozen=True, slots=True)
 class MappedVariable:
     """A leaf. `path` as declared, with `[]`, `[,]`, … for subscripts; `kind` how its value is coded (`coding.py`);
-    `low`, `high` the values it may have, for what is stored in V, and the capacity of a string."""
+    `low`, `high` the values it may have, for what is stored in V, and the capacity of a string.
+
+    `array` is V or O, or B for a variable among shared bytes, each in a slot of V: its `slot` and strides count bits,
+    from slot 0 on, and `bits` is its size (`shared_bytes.py`)."""
 
     path: str
     type: str
@@ -41,6 +45,7 @@ class MappedVariable:
     constant: bool = False
     file: str = ""
     line: int = 0
+    bits: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,8 +230,7 @@ class MemoryMap:
     def read(self, node: Node, read_slots: ReadSlots) -> object:
         """The value: bool, int, float, str; a TIME as `T#…`, an enumeration as its name; lists and tables of these."""
         leaves = list(self.leaves(node))
-        raw = read_slots([(leaf.variable.array, leaf.slot) for leaf in leaves])
-        values = {leaf: self.decode(leaf, value) for leaf, value in zip(leaves, raw, strict=True)}
+        values = dict(zip(leaves, self.read_leaves(leaves, read_slots), strict=True))
 
         def build(part: Node) -> object:
             if isinstance(part, Leaf):
@@ -237,32 +241,56 @@ class MemoryMap:
 
         return build(node)
 
+    def read_leaves(self, leaves: Sequence[Leaf], read_slots: ReadSlots) -> list[object]:
+        """The values of many leaves, with one reading of slots."""
+        places = [places_of(leaf.variable, leaf.slot) for leaf in leaves]
+        raw = iter(read_slots([place for group in places for place in group]))
+        stored = [[next(raw) for _ in group] for group in places]
+        return [
+            self.decode(leaf, joined(leaf.variable, leaf.slot, parts))
+            for leaf, parts in zip(leaves, stored, strict=True)
+        ]
+
     def decode(self, leaf: Leaf, raw: object) -> object:
         """The value of a slot as it is shown."""
         return decode(leaf.variable.kind, raw, self.enums.get(leaf.variable.type, {}))
 
-    def write(self, node: Node, value: object) -> list[Written]:
+    def write(self, node: Node, value: object, read_slots: ReadSlots) -> list[Written]:
         """The raw values that give the node a value; of a structure, only the fields named. Raises BadValue."""
+        plain: list[Written] = []
+        patches: dict[int, Patch] = {}
+        for leaf, raw in self.encode(node, value):
+            if leaf.variable.array == "B":
+                split(leaf.variable, leaf.slot, raw, patches)
+            else:
+                plain.append((leaf.variable.array, leaf.slot, raw))
+        slots = list(patches)
+        old = read_slots([("V", slot) for slot in slots]) if slots else []
+        return plain + [("V", slot, patches[slot].over(byte)) for slot, byte in zip(slots, old, strict=True)]
+
+    def encode(self, node: Node, value: object) -> list[tuple[Leaf, object]]:
+        """The single values of a node's value, in their raw form; of a structure, only the fields named. Raises
+        BadValue."""
         if isinstance(node, Leaf):
             variable = node.variable
             try:
                 raw = encode(variable.kind, value, variable.low, variable.high, self.enums.get(variable.type, {}))
             except ValueError as error:
                 raise BadValue(f"{node.path} is {variable.type}: {error}") from None
-            return [(variable.array, node.slot, raw)]
+            return [(node, raw)]
         if node.items is not None:
             if not isinstance(value, Sequence) or isinstance(value, str) or len(value) != len(node.items):
                 raise BadValue(f"{node.path} is an array of {len(node.items)}: its value is a list of as many")
-            return [w for item, part in zip(node.items, value, strict=True) for w in self.write(item, part)]
+            return [w for item, part in zip(node.items, value, strict=True) for w in self.encode(item, part)]
         if not isinstance(value, Mapping):
             raise BadValue(f"{node.path} is a structure: its value is a table of its fields")
-        written = []
+        encoded = []
         fields = {name.casefold(): part for name, part in node.fields.items()}
         for name, part in value.items():
             if name.casefold() not in fields:
                 raise BadValue(f"{node.path} has no field {name}")
-            written += self.write(fields[name.casefold()], part)
-        return written
+            encoded += self.encode(fields[name.casefold()], part)
+        return encoded
 
     def site(self, number: int) -> Site | None:
         """The place with this number, or None."""
@@ -290,6 +318,7 @@ class MemoryMap:
             dimensions = ";".join(f"{d.low}:{d.high}:{d.stride}" for d in v.dimensions)
             bounds = ("", "") if v.kind == "real" else (str(v.low), str(v.high))
             type_name = _TOLD_BY_NAME.get(v.kind, v.type)  # not an alias
-            lines.append("\t".join([v.path.casefold(), type_name, v.array, str(v.slot), *bounds, dimensions]))
+            array = f"B{v.bits}" if v.array == "B" else v.array
+            lines.append("\t".join([v.path.casefold(), type_name, array, str(v.slot), *bounds, dimensions]))
         lines += ["\t".join([f"@{s.number}", s.file, str(s.line), s.pou]) for s in self.sites]
         return "\n".join(lines) + "\n"

@@ -355,10 +355,11 @@ class ProgramRun:
 
 @dataclass(frozen=True, slots=True)
 class Module:
-    """All of an application. `globals` with the located variables that no POU declares; `bodies` by POU, callees before
-    callers."""
+    """All of an application. `globals` with the located variables that no POU declares; `storages`: the bytes that
+    located variables share; `bodies` by POU, callees before callers."""
 
     globals: tuple[Variable, ...]
+    storages: tuple[Variable, ...]
     tasks: tuple[Task, ...]
     programs: tuple[ProgramRun, ...]
     bodies: dict[Pou, Body] = field(default_factory=dict)

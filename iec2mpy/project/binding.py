@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from iec2mpy.project.boards import Board
 from iec2mpy.project.channels import KINDS, Channel
+from iec2mpy.semantics.overlaps import place_of
 from iec2mpy.semantics.types import ELEMENTARY
 from iec2mpy.source.diagnostics import Diagnostics
 from iec2mpy.source.spans import Span
@@ -15,13 +16,26 @@ from iec2mpy.source.spans import Span
 @dataclass(frozen=True, slots=True)
 class LocatedVariable:
     """A variable with an address in I or Q. `type` is the name of its elementary type (that below an alias or a
-    subrange); `slot` its slot of V; `span` its declaration, or its first use where it has none."""
+    subrange); `slot` its slot of V; `span` its declaration, or its first use where it has none.
+
+    `bits` is the size of a variable among shared bytes, each in a slot of V: its `slot` counts bits from slot 0 on."""
 
     name: str
     address: str
     type: str
     slot: int
     span: Span
+    bits: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Slot:
+    """Where the value of a channel is: in a slot of V, from `bit` on. `in_bytes`: of a word, the high byte is in the
+    next."""
+
+    number: int
+    bit: int = 0
+    in_bytes: bool = False
 
 
 def bind_channels(board: Board, located: Sequence[LocatedVariable], diagnostics: Diagnostics) -> str:
@@ -29,14 +43,15 @@ def bind_channels(board: Board, located: Sequence[LocatedVariable], diagnostics:
 
     Addresses that the board lacks and types that do not fit are reported; their rows are missing from the text.
     """
-    used: dict[str, int] = {}
+    used: dict[str, _Slot] = {}
     for variable in located:
-        channel = board.channels.get(variable.address)
-        if channel is None:
+        covered = list(_covered(board, variable))
+        if not covered:
             message = f"The board {board.name} has no channel {variable.address}, which `{variable.name}` asks for."
             diagnostics.add("E0842", message, variable.span, _nearest(board, variable.address))
-        elif _type_fits(variable, channel, diagnostics):
-            used.setdefault(variable.address, variable.slot)
+        for channel, slot in covered:
+            if not _is_alone(variable, channel) or _type_fits(variable, channel, diagnostics):
+                used.setdefault(channel.address, slot)
     rows = [
         f"    {_row(channel, used[address])!r},  # {address}, {channel.label}\n"
         for address, channel in board.channels.items()
@@ -45,16 +60,36 @@ def bind_channels(board: Board, located: Sequence[LocatedVariable], diagnostics:
     return f"# Made by iec2mpy for the board {board.name}.\nCHANNELS = (\n{''.join(rows)})\n"
 
 
-def _row(channel: Channel, slot: int) -> tuple[object, ...]:
+def _covered(board: Board, variable: LocatedVariable) -> Iterator[tuple[Channel, _Slot]]:
+    """The channels that a variable lies over: its own, or several, each with the bits that it has there."""
+    group, first, size = place_of(variable.address)
+    for channel in board.channels.values():
+        other, start, count = place_of(channel.address)
+        if other != group:
+            continue
+        if variable.bits is None and (start, count) == (first, size):
+            yield channel, _Slot(variable.slot)
+        elif variable.bits is not None and first <= start < first + variable.bits:
+            at = variable.slot + start - first
+            yield channel, _Slot(at // 8, at % 8, in_bytes=count > 8)
+
+
+def _is_alone(variable: LocatedVariable, channel: Channel) -> bool:
+    """Whether the variable is the channel's own; one over several, an array or a structure has bits of any type."""
+    own = place_of(channel.address) == place_of(variable.address)
+    return own and (variable.bits is None or variable.type in ELEMENTARY)
+
+
+def _row(channel: Channel, at: _Slot) -> tuple[object, ...]:
     """A row as the runtime's process image reads it."""
-    c = channel
+    c, slot = channel, at.number
     rows: dict[str, tuple[object, ...]] = {
         "din": ("din", slot, c.pin, "" if c.pull == "none" else c.pull, c.invert),
         "dout": ("dout", slot, c.pin, c.invert, c.safe),
         "adc": ("adc", slot, c.pin, c.low, c.high),
         "pwm": ("pwm", slot, c.pin, c.freq, c.low, c.high, c.safe),
     }
-    return rows[c.kind]
+    return (*rows[c.kind], *([at.bit] if at.bit else [True] if at.in_bytes else []))
 
 
 def _type_fits(variable: LocatedVariable, channel: Channel, diagnostics: Diagnostics) -> bool:

@@ -12,6 +12,7 @@ from iec2mpy.backends.target import PORTABLE_BOARD, VIPER32
 from iec2mpy.project.binding import LocatedVariable, bind_channels
 from iec2mpy.project.compile import check_files, generate, lower
 from iec2mpy.project.config import Project
+from iec2mpy.semantics.packing import bit_size
 from iec2mpy.semantics.types import value_type
 from iec2mpy.source.diagnostics import CompileError, Diagnostic, Diagnostics
 from iec2mpy.source.files import read_sources
@@ -88,10 +89,11 @@ def _target(project: Project, emitter: str) -> Target:
 def _located(program: GeneratedProgram) -> list[LocatedVariable]:
     """The variables in I and Q: those in M are plain memory."""
     found = []
-    for variable, slot in program.located:
+    for variable, array, slot in program.located:
         assert variable.address is not None
         if variable.address[1] in "IQ":
             # of a value that is more than one slot only the name is known, and no channel takes it
             stored = value_type(variable.type) or variable.type
-            found.append(LocatedVariable(variable.name, variable.address, str(stored), slot, variable.span))
+            bits = bit_size(variable.type) if array == "B" else None
+            found.append(LocatedVariable(variable.name, variable.address, str(stored), slot, variable.span, bits))
     return found

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from iec2mpy.semantics.addresses import report_overlaps
 from iec2mpy.semantics.configuration import tasks_and_programs
 from iec2mpy.semantics.declarations import collect_globals, declare_globals, declare_pou, report_duplicate
+from iec2mpy.semantics.overlaps import share_storage
 from iec2mpy.semantics.recursion import report_recursion
 from iec2mpy.semantics.scope import GlobalScope, Scope
 from iec2mpy.semantics.signatures import typed_block_names
@@ -70,12 +70,12 @@ def _checked(units: Sequence[tree.CompilationUnit], diagnostics: Diagnostics, in
             declare_pou(world, key)
     _check_bodies(world)
     report_recursion(world)
-    report_overlaps(world)
+    storages = share_storage(world)
     tasks, programs = tasks_and_programs(world, interval_us)
     if diagnostics.has_errors:
         return None
     pous = [scope.pou for scope in world.scopes.values() if scope.pou is not None]
-    return Application(world.globals, world.direct, pous, tasks, programs)
+    return Application(world.globals, world.direct, storages, pous, tasks, programs)
 
 
 # --------------------------------------------------------------------------------------------------- collecting

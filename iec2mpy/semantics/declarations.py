@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from iec2mpy.semantics.addresses import is_supported, locate, unnamed_variable
+from iec2mpy.semantics.addresses import is_supported, unnamed_variable
 from iec2mpy.semantics.conversions import same_type
 from iec2mpy.semantics.defaults import default_value
 from iec2mpy.semantics.initial_values import initial_value
@@ -347,7 +347,7 @@ def _locate(scope: Scope, location: tree.DirectVariable, variable: Variable) -> 
         scope.diagnostics.add("E0704", "An instance of a block has no address.", location.span)
         return
     variable.address = location.text
-    locate(scope, variable)
+    scope.world.located.append(variable)
 
 
 def _unnamed(scope: Scope, declaration: tree.VarDecl) -> None:
@@ -360,4 +360,4 @@ def _unnamed(scope: Scope, declaration: tree.VarDecl) -> None:
     variable = unnamed_variable(
         scope.world, location, t, initial_value(scope, t, declaration.initial), declaration.span
     )
-    locate(scope, variable)
+    scope.world.located.append(variable)

@@ -23,6 +23,14 @@ arrays and structures; for an instance it holds only what is given, the rest fol
 # ------------------------------------------------------------------------------------ variables and POUs
 
 
+@dataclass(frozen=True, slots=True)
+class SharedPlace:
+    """A place among bytes that several variables share. `storage`: these bytes, an array; `bit`: from its first bit."""
+
+    storage: Variable
+    bit: int
+
+
 @dataclass(eq=False, slots=True)
 class Variable:
     """A declared variable, a field of a structure, or a parameter.
@@ -31,6 +39,7 @@ class Variable:
     `initial` is complete: the declared value, or that of the type. `address` is the normal form of its location.
     For EXTERNAL, `target` is the global variable meant. `retain`: True for RETAIN, False for NON_RETAIN, and None where
     nothing is written: such a variable of an instance does as the instance does (6.5.6.2), others are not retained.
+    `shared` is where a located variable lies that overlaps others.
     """
 
     name: str
@@ -43,6 +52,7 @@ class Variable:
     address: str | None = None
     target: Variable | None = None
     owner: Pou | None = None
+    shared: SharedPlace | None = None
 
     @property
     def key(self) -> str:
@@ -111,11 +121,13 @@ class Application:
 
     Without a CONFIGURATION there is one task of the default interval, named "main", over all programs.
     `direct` holds, by address, the located variables without another name: those of `AT %QW5 : INT`, and those that
-    stand as addresses in bodies. All variables with one `address` are one place; they have the same type.
+    stand as addresses in bodies. All variables with one `address` are one place; they have the same type, unless they
+    lie among shared bytes: `storages` are these.
     """
 
     globals: dict[str, Variable]
     direct: dict[str, Variable]
+    storages: list[Variable]
     pous: list[Pou]
     tasks: list[Task]
     programs: list[ProgramInstance]

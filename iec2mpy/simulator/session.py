@@ -61,7 +61,7 @@ class Simulation:
 
     def set(self, path: str, value: object) -> None:
         """Write a variable, or all of an array or structure. An input keeps its value until it is set again."""
-        written = self._map.write(self._map.resolve(path), value)
+        written = self._map.write(self._map.resolve(path), value, self._read)
         self._engine.write([(array, slot, _stored(raw)) for array, slot, raw in written])
 
     def get(self, path: str) -> object:
@@ -70,8 +70,7 @@ class Simulation:
 
     def get_leaves(self, leaves: Sequence[Leaf]) -> list[object]:
         """Many single values, in one request to the engine."""
-        raw = self._read([(leaf.variable.array, leaf.slot) for leaf in leaves])
-        return [self._map.decode(leaf, value) for leaf, value in zip(leaves, raw, strict=True)]
+        return self._map.read_leaves(leaves, self._read)
 
     def restart(self, cold: bool) -> None:
         """Initial values, at time 0; warm: RETAIN variables keep theirs, and the clock goes on."""

@@ -20,7 +20,7 @@ def differences(memory_map: MemoryMap, node: Node, expected: object, found: obje
     `expected` names are compared. Raises BadValue where the variable can never have the value."""
     if isinstance(node, Leaf):
         # written and read again, `T#1500ms` and `T#1s500ms` look the same
-        ((_, _, raw),) = memory_map.write(node, expected)
+        ((_, raw),) = memory_map.encode(node, expected)
         if _same(memory_map.decode(node, raw), found):
             return []
         return [f"{node.path}: expected {show(expected)}, found {show(found)}"]
@@ -35,7 +35,7 @@ def differences(memory_map: MemoryMap, node: Node, expected: object, found: obje
         if not unknown:
             names = ((fields[name.casefold()], value) for name, value in expected.items())
             return [d for n, value in names for d in differences(memory_map, node.fields[n], value, found[n])]
-    memory_map.write(node, expected)  # says what is wrong with it
+    memory_map.encode(node, expected)  # says what is wrong with it
     raise BadValue(f"{node.path} cannot be compared with {show(expected)}")
 
 

@@ -40,6 +40,24 @@ def test_a_row_of_each_kind(make_project: MakeProject) -> None:
     )
 
 
+def test_channels_under_a_variable_among_bytes(make_project: MakeProject) -> None:
+    span = Span(SourceFile("main.st", ""), 0, 0)
+    located = [
+        LocatedVariable("all", "%IB0", "BYTE", 8 * 8, span, bits=8),
+        LocatedVariable("one", "%IX0.1", "BOOL", 8 * 8 + 1, span, bits=1),
+        LocatedVariable("both", "%IW0", "ARRAY[0..1] OF INT", 8 * 9, span, bits=32),
+        LocatedVariable("none", "%QB7", "BYTE", 8 * 20, span, bits=8),
+    ]
+    diagnostics = Diagnostics()
+    names: dict[str, Any] = {}
+    exec(bind_channels(load_project(make_project()).board, located, diagnostics), names)
+    assert [d.code for d in diagnostics.items] == ["E0842"]
+    digital = [(row[1], *row[5:]) for row in names["CHANNELS"] if row[0] == "din"]
+    assert digital == [(8,), *((8, bit) for bit in range(1, 8))]
+    analog = [(row[1], *row[5:]) for row in names["CHANNELS"] if row[0] == "adc"]
+    assert analog == [(9, True), (11, True)]
+
+
 def test_named_pin_and_no_pull(make_project: MakeProject) -> None:
     directory = make_project('[channels."%IX0.0"]\npull = "none"', board="pico_w")
     rows, _ = bind(directory, ("%QX0.0", "BOOL"), ("%IX0.0", "BOOL"))

@@ -201,16 +201,6 @@ def test_located_variables() -> None:
     assert application.direct["%QW2"].type is INT
 
 
-def test_addresses_that_share_storage() -> None:
-    assert codes(program("a AT %MW10 : WORD; b : BYTE;", "b := %MB20;")) == [("E0917", 3)]
-    assert codes(program("a AT %MW10 : WORD;\nb AT %MW10 : INT;", ";")) == [("E0917", 3)]
-    assert codes(program("a AT %MW0 : ARRAY[0..9] OF WORD;\nb AT %MW9 : WORD;", ";")) == [("E0917", 3)]
-    assert (
-        codes(program("a AT %MW0 : ARRAY[0..9] OF WORD; b AT %MW10 : WORD; c AT %IX0.0 : BOOL; d AT %IW0 : WORD;", ";"))
-        == []
-    )
-
-
 def test_globals_need_external() -> None:
     text = "VAR_GLOBAL g : INT; END_VAR\n" + program("x : INT;", "x := g;")
     _, diagnostics = check_text(text)

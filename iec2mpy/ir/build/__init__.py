@@ -20,6 +20,7 @@ def build(application: t.Application) -> n.Module:
         _build_reached(program.pou, bodies)
     return n.Module(
         (*application.globals.values(), *application.direct.values()),
+        tuple(application.storages),
         tuple(application.tasks),
         tuple(n.ProgramRun(p.name, p.pou, p.task, bool(p.retain)) for p in application.programs),
         bodies,

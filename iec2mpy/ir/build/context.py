@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
 from iec2mpy.ir import nodes as n
@@ -38,6 +38,9 @@ class Context:
 
     def emit(self, statement: n.Stmt) -> None:
         self._block.append(statement)
+
+    def emit_all(self, statements: Iterable[n.Stmt]) -> None:
+        self._block += statements
 
     def line(self, span: Span) -> None:
         """A new source statement begins."""

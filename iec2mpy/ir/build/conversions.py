@@ -6,8 +6,8 @@ Between numbers, a value out of range faults; from and to bit strings the low bi
 from __future__ import annotations
 
 from iec2mpy.ir import nodes as n
+from iec2mpy.ir.build.checks import check_range
 from iec2mpy.ir.build.context import Context
-from iec2mpy.ir.build.places import check_range
 from iec2mpy.semantics import types as ty
 from iec2mpy.semantics.types import Kind
 

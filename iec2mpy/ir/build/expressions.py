@@ -7,6 +7,7 @@ from iec2mpy.ir.build import calls
 from iec2mpy.ir.build.builtins import lower_builtin, power
 from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.conversions import convert, real_result
+from iec2mpy.ir.build.packed import PackedPlace, load, pack, unpack
 from iec2mpy.ir.build.parts import read_part, with_part
 from iec2mpy.ir.build.places import fixed, lower_place
 from iec2mpy.ir.build.stores import assign
@@ -37,7 +38,7 @@ def _lower(context: Context, expr: t.Expr) -> n.Expr:
         case t.VariableRef(variable) if variable in context.controls:
             return context.controls[variable]
         case t.VariableRef() | t.DirectRef() | t.FieldRef() | t.ElementRef():
-            return n.Load(lower_place(context, expr, lower_expr), stored_type(expr.type))
+            return _load(context, lower_place(context, expr, lower_expr), stored_type(expr.type))
         case t.PartRef(base, low, part):
             return read_part(lower_expr(context, base), low, part)
         case t.CharacterRef(base, index):
@@ -83,7 +84,12 @@ def lower_aggregate(context: Context, expr: t.Expr) -> n.Place:
         result = calls.call_function(context, expr)
         assert result is not None, "the checker lets only functions with a result into expressions"
         return result
-    return lower_place(context, expr, lower_expr)
+    place = lower_place(context, expr, lower_expr)
+    if isinstance(place, n.Place):
+        return place
+    whole = context.new_hidden(place.type)
+    unpack(context, whole, place)
+    return whole
 
 
 def assign_expr(context: Context, target: t.Expr, value: t.Expr) -> None:
@@ -99,13 +105,18 @@ def assign_expr(context: Context, target: t.Expr, value: t.Expr) -> None:
     assert target.type is not None
     if ty.value_type(target.type) is None:
         source = lower_aggregate(context, value)
-        context.emit(n.Copy(context.settle_place(mark, place), source))
+        if isinstance(place, PackedPlace):
+            pack(context, place, source)
+        else:
+            context.emit(n.Copy(context.settle_place(mark, place), source))
     else:
         lowered = lower_expr(context, value)
-        place = context.settle_place(mark, place)
+        if isinstance(place, n.Place):
+            place = context.settle_place(mark, place)
         if part is not None:
-            place = fixed(context, place)
-            lowered = with_part(n.Load(place, stored_type(target.type)), part.low, lowered)
+            if isinstance(place, n.Place):
+                place = fixed(context, place)
+            lowered = with_part(_load(context, place, stored_type(target.type)), part.low, lowered)
         assign(context, place, target.type, lowered)
 
 
@@ -114,10 +125,15 @@ def _assign_character(context: Context, target: t.CharacterRef, value: t.Expr) -
     place = lower_place(context, target.base, lower_expr)
     mark = context.mark()
     index, code = lower_all(context, (target.index, value))
+    assert isinstance(place, n.Place), "no string lies among shared bytes"
     place = fixed(context, context.settle_place(mark, place))
     string = n.Load(place, stored_type(target.base.type))
     context.emit(n.Mark(context.site))
     context.emit(n.Store(place, n.Intrinsic("with_character", (string, index, code), string.type)))
+
+
+def _load(context: Context, place: n.Place | PackedPlace, value_type: n.ValueType) -> n.Expr:
+    return load(context, place) if isinstance(place, PackedPlace) else n.Load(place, value_type)
 
 
 def lower_all(context: Context, exprs: tuple[t.Expr, ...]) -> list[n.Expr]:

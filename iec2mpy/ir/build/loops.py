@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 
 from iec2mpy.ir import nodes as n
+from iec2mpy.ir.build.checks import check_range, outside
 from iec2mpy.ir.build.context import FALSE, TRUE, Context
 from iec2mpy.ir.build.expressions import lower_all, lower_expr, stored_type
-from iec2mpy.ir.build.places import check_range, lower_place, outside
+from iec2mpy.ir.build.packed import PackedPlace
+from iec2mpy.ir.build.places import lower_place
+from iec2mpy.ir.build.stores import assign
 from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
 
@@ -99,7 +102,7 @@ def lower_for(context: Context, statement: t.For, lower_block: LowerBlock) -> No
 def _for_any_step(
     context: Context,
     statement: t.For,
-    control: n.Place,
+    control: n.Place | PackedPlace,
     start: n.Expr,
     end: n.Expr,
     step: n.Expr,
@@ -123,19 +126,20 @@ def _for_any_step(
     context.emit(n.While(TRUE, tuple(body)))
 
 
-def _give_control(context: Context, control: n.Place, value: n.Local, inside: n.Expr) -> None:
+def _give_control(context: Context, control: n.Place | PackedPlace, value: n.Local, inside: n.Expr) -> None:
     """The next value for the control variable, and the end of the loop. One of a subrange never has another value: a
     pass with one faults, and where the first value that is not inside is none of its own, it keeps the last."""
     declared, value_type = control.type, stored_type(control.type)
-    store = n.Store(control, n.Wrap(value, value_type))
+    with context.block() as stores:
+        assign(context, control, value_type, n.Wrap(value, value_type))
     if not isinstance(declared, ty.SubrangeType):
-        context.emit(store)
+        context.emit_all(stores)
         context.emit(n.If(n.Not(inside, ty.BOOL), (n.Break(),), ()))
         return
-    last = n.If(n.Not(outside(value, declared.low, declared.high), ty.BOOL), (store,), ())
+    last = n.If(n.Not(outside(value, declared.low, declared.high), ty.BOOL), tuple(stores), ())
     context.emit(n.If(n.Not(inside, ty.BOOL), (last, n.Break()), ()))
     check_range(context, value, declared.low, declared.high, "range")
-    context.emit(store)
+    context.emit_all(stores)
 
 
 def _room(value: n.Expr, end: n.Expr, step: n.Expr, upwards: bool) -> n.Expr:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from iec2mpy.ir import nodes as n
+from iec2mpy.ir.build.checks import check_range
 from iec2mpy.ir.build.context import Context
+from iec2mpy.ir.build.packed import PackedPlace, element_of, field_of
 from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
 from iec2mpy.syntax.tree import PouKind, Section
@@ -36,7 +38,14 @@ def field_place(base: n.Place, variable: t.Variable) -> n.Place:
     return n.Place(n.Deref(place), (), place.type) if variable.section is Section.IN_OUT else place
 
 
-def lower_place(context: Context, expr: t.Expr, lower_expr: LowerExpr) -> n.Place:
+def plain_place(context: Context, expr: t.Expr, lower_expr: LowerExpr) -> n.Place:
+    """`lower_place`, for what never lies among shared bytes: an instance."""
+    place = lower_place(context, expr, lower_expr)
+    assert isinstance(place, n.Place), f"{expr} lies among shared bytes"
+    return place
+
+
+def lower_place(context: Context, expr: t.Expr, lower_expr: LowerExpr) -> n.Place | PackedPlace:
     """The place that a variable, field or element names; checks of indices are emitted."""
     if context.instance is not None and expr is context.instance[0]:
         return context.instance[1]
@@ -44,13 +53,19 @@ def lower_place(context: Context, expr: t.Expr, lower_expr: LowerExpr) -> n.Plac
         case t.VariableRef(variable) if variable in context.edges:
             return context.edges[variable]
         case t.VariableRef(variable) | t.DirectRef(variable):
+            if variable.shared is not None:
+                storage = storage_place(variable.shared.storage)
+                return PackedPlace(storage, variable.shared.bit, ty.unaliased(variable.type))
             return variable_place(variable)
         case t.FieldRef(base, variable):
-            return field_place(lower_place(context, base, lower_expr), variable)
+            whole = lower_place(context, base, lower_expr)
+            return field_of(whole, variable) if isinstance(whole, PackedPlace) else field_place(whole, variable)
         case t.ElementRef(base, indices):
             base_place = lower_place(context, base, lower_expr)
             mark = context.mark()
             index = _flat_index(context, base_place.type, indices, lower_expr)
+            if isinstance(base_place, PackedPlace):
+                return element_of(context, base_place, index)
             base_place = context.settle_place(mark, base_place)
             return n.Place(base_place.root, (*base_place.steps, n.Element(index)), ty.unaliased(expr.type))
         case _:
@@ -85,25 +100,6 @@ def _offset(context: Context, value: n.Expr, low: int, high: int) -> n.Expr:
         return n.Const(value.number - low, ty.DINT)
     value = check_range(context, value, low, high, "index")
     return _add(value, n.Const(-low, ty.DINT))
-
-
-def check_range(context: Context, value: n.Expr, low: int, high: int, fault: str) -> n.Expr:
-    """The value, which was checked to be inside the bounds; as an atom, if a check was needed."""
-    assert isinstance(value.type, ty.ElementaryType)
-    inside = isinstance(value, n.Const) and low <= value.number <= high
-    if inside or (low <= value.type.low and value.type.high <= high):
-        return value
-    value = context.atom(value)
-    context.emit(n.Guard(outside(value, low, high), fault, context.site))
-    return value
-
-
-def outside(value: n.Expr, low: int, high: int) -> n.Expr:
-    """Whether an atom, whose type has more values than that, is not in low..high."""
-    assert isinstance(value.type, ty.ElementaryType)
-    checks = [("lt", low)] * (low > value.type.low) + [("gt", high)] * (high < value.type.high)
-    conditions = [n.Op(name, value, n.Const(bound, value.type), ty.BOOL) for name, bound in checks]
-    return conditions[0] if len(conditions) == 1 else n.Op("or", conditions[0], conditions[1], ty.BOOL)
 
 
 def _add(left: n.Expr, right: n.Expr) -> n.Expr:

@@ -1,6 +1,6 @@
 import os
 
-from support import raises
+from support import Program, raises
 
 from mcu_runtime.names import Names
 
@@ -20,6 +20,11 @@ main.text|STRING|O|3|0|254|
 main.wide|WSTRING|O|4|0|3|
 main.ch|CHAR|V|14|0|255|
 main.wch|CHAR|V|15|0|65535|
+main.low|BYTE|B8|64|0|255|
+main.bit[]|BOOL|B1|67|0|1|0:9:1
+main.both|INT|B16|64|-32768|32767|
+main.real|REAL|B32|64|||
+main.mode|Colour|B16|80|0|2|
 @12|src/main.st|7|main
 @1|src/other.st|3|Valve
 """.replace("|", "\t")
@@ -100,6 +105,30 @@ def test_encode_refuses():
         ("main.t", "T#1s"),
     ):
         raises(ValueError, place(path).encode, value)
+
+
+def test_shared_bytes():
+    program = Program()
+
+    def read(path):
+        return place(path).decode(place(path).load(program))
+
+    def write(path, value):
+        place(path).store(program, place(path).encode(value))
+
+    write("main.real", -2.5)
+    assert list(program.V[8:12]) == [0, 0, 0x20, 0xC0]
+    assert read("main.real") == -2.5
+    write("main.both", -2)
+    assert (read("main.both"), read("main.low")) == (-2, 254)
+    write("main.bit[0]", False)
+    write("main.bit[5]", False)
+    assert (read("main.bit[4]"), read("main.bit[5]")) == (True, False)
+    assert list(program.V[8:12]) == [0xF6, 0xFE, 0x20, 0xC0]
+    write("main.mode", "green")
+    assert read("main.mode") == "Green"
+    assert list(program.V[10:12]) == [2, 0]
+    raises(ValueError, place("main.low").encode, 256)
 
 
 def test_places():

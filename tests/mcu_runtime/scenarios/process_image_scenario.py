@@ -31,6 +31,28 @@ def test_digital_outputs_are_made_with_their_safe_value():
     assert V[8] == 1
 
 
+def test_channels_among_shared_bytes():
+    io, V = image(
+        ("din", 8, 2, None, False, 3),
+        ("din", 8, 3, None, True),
+        ("dout", 9, 4, False, 0, 7),
+        ("adc", 10, 26, -1000, 1000, True),
+        ("pwm", 12, 15, 1000, -100, 100, 0, True),
+    )
+    Pin.levels.update({2: 1, 3: 1})
+    ADC.raw = 0
+    V[8], V[9], V[12], V[13] = 0x41, 0x80, 0xCE, 0xFF
+    io.read(V)
+    assert list(V[8:12]) == [0x48, 0x80, 0x18, 0xFC]
+    Pin.levels[2] = 0
+    ADC.raw = 65535
+    io.read(V)
+    assert list(V[8:12]) == [0x40, 0x80, 0xE8, 0x03]
+    io.write(V)
+    assert Pin.levels[4] == 1
+    assert PWM.log[-1] == 65535 // 4
+
+
 def test_outputs_go_safe_before_inputs_are_made():
     image(("din", 8, 2, None, False), ("dout", 9, 3, False, 0))
     assert [entry[0] for entry in Pin.log] == [3, 2]
