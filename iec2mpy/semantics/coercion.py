@@ -15,6 +15,7 @@ from iec2mpy.semantics.conversions import (
     literal_type,
     same_type,
 )
+from iec2mpy.semantics.loose import converts, converts_in_dialects, loosely
 from iec2mpy.semantics.scope import UNKNOWN, Scope
 from iec2mpy.semantics.typed import Constant, Convert, Expr
 from iec2mpy.semantics.types import (
@@ -34,6 +35,7 @@ from iec2mpy.semantics.types import (
     unaliased,
     value_type,
 )
+from iec2mpy.source.dialects import with_dialects
 from iec2mpy.source.spans import Span
 
 _SHOWN = 40
@@ -51,6 +53,8 @@ def coerce(scope: Scope, value: Expr, target: Type, code: str = "E0301", needs: 
     if isinstance(value, Constant) and is_untyped(value.type):
         return _literal(scope, value, target, code, needs)
     if not converts_implicitly(value.type, target):
+        if converts(value, target):
+            return _in_subrange(scope, loosely(value, target), target)
         _mismatch(scope, value, target, code, needs)
         return None
     return _in_subrange(scope, convert(value, target), target)
@@ -157,7 +161,10 @@ def _mismatch_hint(value: Expr, target: Type) -> str | None:
     if isinstance(to, (StructType, ArrayType, BlockType)) and isinstance(base_type(source), (StructType, ArrayType)):
         return "Whole structures and arrays are assigned only to variables of the same type."
     name = conversion_name(source, target)
-    return f"Write {name}({shown(value.span)})." if name else None
+    if name is None:
+        return None
+    written = f"Write {name}({shown(value.span)})."
+    return with_dialects("bits-are-numbers", written) if converts_in_dialects(source, target) else written
 
 
 def is_number(t: Type) -> bool:

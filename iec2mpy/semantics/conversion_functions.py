@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from iec2mpy.semantics import arithmetic, expressions, operators, standard_calls
+from iec2mpy.semantics import arithmetic, expressions, loose, operators, standard_calls
 from iec2mpy.semantics.coercion import coerce, describe, typed_literal
 from iec2mpy.semantics.conversions import converts_explicitly, is_integer, type_named
 from iec2mpy.semantics.scope import Scope
@@ -87,6 +87,10 @@ def _converted(
             "E0312", f"{conversion.name} needs a single value, but this is {describe(value.type)}.", value.span
         )
         return None
+    if REAL in (source, target) and target is not source:
+        number = loose.by_value(value, target)
+        if number is not None:
+            return number
     if not converts_explicitly(source, target):
         _no_conversion(scope, call, source, target)
         return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from iec2mpy.semantics import arithmetic
+from iec2mpy.semantics import arithmetic, loose
 from iec2mpy.semantics.arithmetic import COMPARISONS, ArithmeticFault
 from iec2mpy.semantics.coercion import coerce, convert, describe, fits_literal, is_number, typed_literal
 from iec2mpy.semantics.conversions import (
@@ -33,6 +33,7 @@ from iec2mpy.semantics.types import (
     base_type,
     value_type,
 )
+from iec2mpy.source.dialects import with_dialects
 from iec2mpy.source.spans import Span
 
 _ALL_KINDS = frozenset(Kind)
@@ -76,7 +77,7 @@ def binary(scope: Scope, operator: str, left: Expr, right: Expr, operator_span: 
         return number and _node(scope, operator, left, number, TIME, span)
     if operator == "**":
         return _power(scope, left, right, operator_span, span)
-    pair = _paired(scope, operator, left, right, operator_span, span)
+    pair = _paired(scope, operator, _operand(operator, left), _operand(operator, right), operator_span, span)
     if pair is None:
         return None
     left, right = pair
@@ -136,6 +137,11 @@ def _paired(
     return _typed_pair(scope, operator, left, right, operator_span)
 
 
+def _operand(operator: str, value: Expr) -> Expr:
+    """Where the dialect makes no difference between them, a bit string as a number, or a number as a bit string."""
+    return loose.as_bits(value) if operator in ("AND", "OR", "XOR") else loose.as_number(value)
+
+
 def _takes(operator: str, operand: Expr) -> bool:
     t = base_type(operand.type)
     if isinstance(t, ElementaryType):
@@ -184,6 +190,8 @@ def _typed_pair(scope: Scope, operator: str, left: Expr, right: Expr, operator_s
     common = joined_type(a, b)
     if common is not None:
         return convert(left, common), convert(right, common)
+    if (t := loose.joined(left, right)) is not None:
+        return loose.loosely(left, t), loose.loosely(right, t)
     _different(scope, operator, left, right, operator_span)
     return None
 
@@ -220,6 +228,9 @@ def _operand_hint(operator: str, operand: Expr) -> str | None:
         return "CONCAT(a, b) joins strings."
     if isinstance(t, EnumType):
         return "Values of an enumeration cannot be calculated with."
+    if _is_kind(t, frozenset((Kind.BITS,))) and operator in ("+", "-", "*", "/", "MOD"):
+        number = loose.of_kind(t, Kind.UNSIGNED)
+        return with_dialects("bits-are-numbers", f"Convert it with {t}_TO_{number}.")
     if operator == "**" and (name := conversion_name(t, REAL)):
         return f"Convert it with {name}."
     if t is BOOL and operator in ("+", "-", "*", "/"):
@@ -309,9 +320,10 @@ def _untyped(scope: Scope, operator: str, left: Constant, right: Constant, span:
 
 def unary(scope: Scope, operator: str, operand: Expr, expected: Type | None, span: Span) -> Expr | None:
     """`-`, `+` and `NOT`. `expected` is the type that the place needs: it tells what `NOT 0` means."""
-    t = base_type(operand.type)
     if operator == "NOT":
-        return _complement(scope, operand, expected, span)
+        return _complement(scope, loose.as_bits(operand), expected, span)
+    operand = loose.as_signed(operand)
+    t = base_type(operand.type)
     if not isinstance(t, ElementaryType) or t.kind not in _TAKES["-"]:
         scope.diagnostics.add(
             "E0302",

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from enum import Enum
 from pathlib import PurePath
 
-from iec2mpy.semantics import addresses, declarations, expressions, parts
+from iec2mpy.semantics import addresses, declarations, expressions, loose, parts
 from iec2mpy.semantics.coercion import describe, typed_literal
 from iec2mpy.semantics.conversions import is_integer
 from iec2mpy.semantics.names import unknown_name
@@ -343,6 +343,7 @@ def _index(scope: Scope, expr: tree.Expr) -> Expr | None:
     index = expressions.check(scope, expr)
     if index is None:
         return None
+    index = loose.as_number(index)
     if not is_integer(index.type) or isinstance(index.type, EnumType):
         scope.diagnostics.add(
             "E0305", f"A subscript must be an integer, but this is {describe(index.type)}.", index.span

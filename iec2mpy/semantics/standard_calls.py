@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
-from iec2mpy.semantics import arithmetic, expressions, operators
+from iec2mpy.semantics import arithmetic, expressions, loose, operators
 from iec2mpy.semantics.arguments import report_mixed
 from iec2mpy.semantics.arithmetic import COMPARISONS
 from iec2mpy.semantics.coercion import coerce, describe, fits_literal, typed_literal
@@ -19,6 +19,7 @@ from iec2mpy.semantics.types import (
     ArrayType,
     ElementaryType,
     EnumType,
+    Kind,
     StringType,
     StructType,
     Type,
@@ -223,7 +224,7 @@ def _unify(
     common = _expected_for_literals(generic, values, expected) or _common(scope, signature, values)
     if common is None:
         return None
-    t = _member(generic, common)
+    t = _member(generic, common) or _loose_member(generic, values[0])
     if t is None:
         _not_generic(scope, signature, generic, values[0])
         return None
@@ -256,7 +257,7 @@ def _common(scope: Scope, signature: Signature, values: list[Expr]) -> Type | No
             typed.append(value)
     common = base_type(typed[0].type)
     for value in typed[1:]:
-        joined = joined_type(common, base_type(value.type))
+        joined = joined_type(common, base_type(value.type)) or loose.joined(typed[0], value)
         if joined is None:
             scope.diagnostics.add(
                 "E0303", f"{signature.name} cannot take both {describe(common)} and {describe(value.type)}.", value.span
@@ -276,6 +277,15 @@ def _member(generic: str, t: Type) -> Type | None:
     if isinstance(t, ElementaryType) and t.name in names:
         return t
     return next((m for name in names if (m := type_named(name)) is not None and converts_implicitly(t, m)), None)
+
+
+def _loose_member(generic: str, value: Expr) -> Type | None:
+    """The member of the generic type with the same bits, where the dialect makes no difference."""
+    if not loose.is_loose(value):
+        return None
+    names = generic_members(generic)
+    kinds = (Kind.UNSIGNED, Kind.BITS)
+    return next((t for kind in kinds if (t := loose.of_kind(value.type, kind)).name in names), None)
 
 
 _MEANS = {

@@ -44,6 +44,11 @@ EXTENSIONS: Mapping[str, Extension] = {
     "global-without-external": Extension("a global variable is known in all POUs, without VAR_EXTERNAL", "n := n + 1;"),
     "qualified-global": Extension("a global variable behind the name of its list, which is its file's", "GVL.n := 1;"),
     "written-input": Extension("a block or function writes its own inputs", "x := ABS(x);"),
+    "bits-are-numbers": Extension(
+        "BYTE, WORD and DWORD are numbers; integers and bit strings convert to each other where none is narrower",
+        "w := w + 1;",
+    ),
+    "exponent-without-point": Extension("a number with an exponent and no decimal point", "x := 2E-3;"),
 }
 """Each by the name that the compiler has for it."""
 

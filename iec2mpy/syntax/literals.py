@@ -10,6 +10,7 @@ import re
 from dataclasses import replace
 
 from iec2mpy.source.diagnostics import Diagnostics
+from iec2mpy.source.dialects import accepts, with_dialects
 from iec2mpy.source.spans import SourceFile, Span
 from iec2mpy.syntax import time_literals
 from iec2mpy.syntax.keywords import ELEMENTARY_TYPES, KEYWORDS
@@ -53,6 +54,9 @@ def _literal(
 # ------------------------------------------------------------------------------------------------- numbers
 
 
+_POINTLESS = re.compile(r"\d+[eE][+-]?\d+\Z", re.ASCII)
+
+
 def read_number(file: SourceFile, start: int, end: int, diagnostics: Diagnostics) -> Token:
     """An unsigned decimal number without a prefix: INTEGER, or LITERAL for a real one."""
     text = file.text[start:end]
@@ -62,7 +66,7 @@ def read_number(file: SourceFile, start: int, end: int, diagnostics: Diagnostics
         return Token("INTEGER", text, start, end, file, Literal("int", 0, None, span), True)
     if _DECIMAL.match(text) and text.isascii():
         return Token("INTEGER", text, start, end, file, Literal("int", int(text), None, span))
-    if _REAL.match(text):
+    if _REAL.match(text) or (_POINTLESS.match(text) and accepts(file, "exponent-without-point")):
         return _literal("real", float(text.replace("_", "")), None, file, start, end)
     _report_number(text, span, diagnostics)
     return Token("INTEGER", text, start, end, file, Literal("int", 0, None, span), True)
@@ -107,13 +111,9 @@ def _report_number(text: str, span: Span, diagnostics: Diagnostics) -> None:
         diagnostics.add("E0106", f"`{text}` is not how numbers are written here.", span, f"Write `{base}{text[2:]}`.")
     elif "__" in text or text.endswith("_") or "_." in text:
         diagnostics.add("E0106", f"`{text}`: one `_` can stand between two digits, not more, and not at the end.", span)
-    elif re.fullmatch(r"[eE]\d*", rest):
-        diagnostics.add(
-            "E0106",
-            f"`{text}`: a number with an exponent has a decimal point.",
-            span,
-            f"Write `{digits.group()}.0{rest}`.",
-        )
+    elif _POINTLESS.match(text):
+        hint = with_dialects("exponent-without-point", f"Write `{digits.group()}.0{rest}`.")
+        diagnostics.add("E0106", f"`{text}`: a number with an exponent has a decimal point.", span, hint)
     elif "." in text:
         diagnostics.add("E0106", f"`{text}` is no number of the form `12.5` or `1.5E-3`.", span)
     elif re.fullmatch(r"(?i)d|h|m|s|ms|us|ns", rest):

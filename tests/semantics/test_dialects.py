@@ -155,6 +155,35 @@ END_PROGRAM""",
         {"..n": 7},
     ),
     Program(
+        "bits-are-numbers", "E0302", 5,
+        """PROGRAM main
+VAR w : WORD := 65535; b : BYTE := 200; d : DWORD := 4294967295; i : INT := -2; u : UDINT; r, s : REAL;
+x : DINT; a : ARRAY[0..255] OF INT; below, same : BOOL; low : INT; n, e : DWORD; m : DINT; wide : WORD; END_VAR
+IF x = 0 THEN
+w := w + 2;
+x := b * 2 + i;
+u := i;
+low := i AND 16#FF;
+r := d; s := WORD_TO_REAL(w) + b;
+a[b] := w - 3;
+below := i < b; same := w = 1;
+n := SHL(i, 4); m := -b; d := d / 2; e := REAL_TO_DWORD(2.5E9); wide := MAX(b, i);
+END_IF;
+END_PROGRAM""",
+        {
+            "w": 1, "x": 142, "u": 4294967294, "low": 254, "r": 4294967296.0, "s": 201.0, "a[200]": -2, "below": True,
+            "same": True, "n": 65504, "m": -200, "d": 2147483647, "e": 2500000000, "wide": 200,
+        },
+    ),
+    Program(
+        "exponent-without-point", "E0106", 3,
+        """PROGRAM main
+VAR x, y : REAL; END_VAR
+x := 2E-3; y := 25e1;
+END_PROGRAM""",
+        {"x": 0.0020000000949949026, "y": 250.0},
+    ),
+    Program(
         "written-input", "E0604", 3,
         """FUNCTION size : INT
 VAR_INPUT x : INT; END_VAR
