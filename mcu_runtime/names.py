@@ -51,8 +51,8 @@ _ELEMENTARY = ("BOOL", "SINT", "INT", "DINT", "USINT", "UINT", "UDINT", "BYTE", 
 
 class Place:
     """One variable. Values: BOOL bool, integers and bit strings int, TIME int (ms), REAL float, STRING and WSTRING str,
-    CHAR (a WCHAR too) a str of one character, an enumeration the name of the value. `low` and `high`: of a STRING 0 and
-    its capacity, of a REAL None.
+    CHAR (a WCHAR too) a str of one character, an enumeration the name of the value, a reference "NULL" or "not
+    NULL". `low` and `high`: of a STRING 0 and its capacity, of a REAL None.
 
     `array` is V or O; or B and a number of bits, for a variable among bytes that others share: each byte is in a slot
     of V, and `slot` counts bits from slot 0 on."""
@@ -101,6 +101,8 @@ class Place:
             return stored != 0
         if self.type == "CHAR":
             return chr(stored)
+        if self.type == "REF_TO":
+            return "not NULL" if stored else "NULL"
         for name, number in self._members.items():
             if number == stored:
                 return name
@@ -110,6 +112,10 @@ class Place:
         """How `value` is stored; ValueError where the declared type does not have it."""
         if self._is_object:
             return self._object(value)
+        if self.type == "REF_TO":
+            if value != "NULL":
+                raise ValueError("%s is a reference: only \"NULL\" can be written to it" % self.path)
+            return 0
         if self._members:
             for name, number in self._members.items():
                 if isinstance(value, str) and name.lower() == value.lower():

@@ -46,7 +46,7 @@ class Addresses:
     def reference(self, place: n.Place) -> Text:
         """The one slot's worth of a reference to the place: V in the low 16 bits, O above."""
         if isinstance(place.root, n.Deref) and not place.steps:
-            return self._slot(self.subscript(place.root.reference, "V"))
+            return self.write(place.root.reference)
         size = self.layout.size_of(place.type)
         if not size.o:
             return self.subscript(place, "V")
@@ -89,18 +89,13 @@ class Addresses:
                     return base.of(array), (pou.name,), []
                 assert pou is self.pou, "only its own body knows an instance by its base"
                 return 0, (pou.name,), [Text("b" if array == "V" else "p")]
-            case n.Deref(reference):
-                return 0, (), [self._referred(reference, array)]
+            case n.Deref(reference, declared):
+                return 0, (), [self._referred(self.write(reference), declared, array)]
 
-    def _referred(self, reference: n.Place, array: str) -> Text:
-        slot = self._slot(self.subscript(reference, "V"))
-        size = self.layout.size_of(reference.type)
+    def _referred(self, reference: Text, declared: ty.Type, array: str) -> Text:
         if array == "O":
-            return infix(slot, ">>", number(16))
-        return infix(slot, "&", number(0xFFFF)) if size.o else slot
-
-    def _slot(self, subscript: Text) -> Text:
-        return Text(f"v[{subscript.code}]")
+            return infix(reference, ">>", number(16))
+        return infix(reference, "&", number(0xFFFF)) if self.layout.size_of(declared).o else reference
 
     def _offset(self, root: n.Root, declared: ty.Type | None, step: n.Field) -> Size:
         if declared is None:
@@ -134,8 +129,8 @@ def _root_type(root: n.Root) -> ty.Type | None:
     match root:
         case n.Global(variable):
             return variable.type
-        case n.Deref(reference):
-            return reference.type
+        case n.Deref(_, declared):
+            return declared
         case _:
             return None
 

@@ -98,6 +98,12 @@ def _encode_enum(value: object, _low: int, _high: int, enum: Enum) -> object:
     raise ValueError(f"{value!r} is none of {', '.join(enum)}")
 
 
+def _encode_reference(value: object, _low: int, _high: int, _enum: Enum) -> object:
+    if isinstance(value, str) and value.upper() == "NULL":
+        return 0
+    raise ValueError(f"{value!r} is not NULL, and nothing else can be given to a reference from outside")
+
+
 def _decode_enum(raw: object, enum: Enum) -> object:
     return next((name for name, number in enum.items() if number == raw), raw)
 
@@ -112,6 +118,7 @@ _CODERS: Mapping[str, tuple[Callable[[object, Enum], object], Callable[[object, 
     "wstring": (lambda raw, _: raw, _encode_wstring),
     "character": (lambda raw, _: chr(_as_int(raw)), _encode_character),
     "enum": (_decode_enum, _encode_enum),
+    "reference": (lambda raw, _: "not NULL" if raw else "NULL", _encode_reference),
 }
 
 

@@ -84,6 +84,8 @@ class ExpressionWriter:
                 return Text(f"{'x' if value_type.in_objects else 't'}{local}")
             case n.Load(place, value_type):
                 return self._load(place, value_type)
+            case n.Ref(place):
+                return self.addresses.reference(place)
             case n.Now(value_type):
                 assert isinstance(value_type, ty.ElementaryType)
                 return forms.load(self.target, Text(f"v[{self.names.name(('now',), NOW)}]"), value_type, value_type.low)

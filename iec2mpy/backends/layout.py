@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from iec2mpy.ir import nodes as n
@@ -45,6 +45,17 @@ class Size:
 _SLOT = Size(1, 0)
 _OBJECT = Size(0, 1)
 NOWHERE = Size(0, 0)
+
+
+Homes = Mapping[Pou, Size]
+"""The bases of the instances that a variable stands in, from the program inwards."""
+
+
+def packed(at: Size, size: Size) -> int:
+    """A reference to what has that position and size, as a number: V in the low 16 bits, O above."""
+    if not size.o:
+        return at.v
+    return (at.v if size.v else 0) | at.o << 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,21 +180,19 @@ class Layout:
         several. Such a body needs no base at run time."""
         return self._single_bases.get(pou)
 
-    def storages(self) -> Iterator[tuple[ty.Type, Value, Size]]:
-        """Everything that has a place and an initial value: (type, value, position)."""
+    def storages(self) -> Iterator[tuple[ty.Type, Value, Size, Homes]]:
+        """Everything that has a place and an initial value: (type, value, position, the instance that it stands in)."""
         for variable, at in (*self.globals.items(), *self.located.values(), *self.shared.items()):
-            yield variable.type, variable.initial, at
-        records = [
-            *(
-                (self.instance_record(run.pou), base)
-                for run, base in zip(self.module.programs, self.instances, strict=True)
-            ),
-            *((self.frame_record(pou), base) for pou, base in self.frames.items()),
+            yield variable.type, variable.initial, at, {}
+        runs = zip(self.module.programs, self.instances, strict=True)
+        records: list[tuple[Record, Size, Homes]] = [
+            *((self.instance_record(run.pou), base, {run.pou: base}) for run, base in runs),
+            *((self.frame_record(pou), base, {}) for pou, base in self.frames.items()),
         ]
-        for record, base in records:
+        for record, base, homes in records:
             for variable, offset in record.offsets.items():
                 if variable.section is not Section.IN_OUT:
-                    yield variable.type, variable.initial, base + offset
+                    yield variable.type, variable.initial, base + offset, homes
 
     def retained(self) -> Iterator[tuple[Size, Size]]:
         """The positions and sizes of what keeps its value over a warm restart."""
@@ -193,7 +202,8 @@ class Layout:
             yield from self._retained_in_record(self.instance_record(run.pou), base, run.retain)
 
     def _retained_in_record(self, record: Record, base: Size, inherited: bool) -> Iterator[tuple[Size, Size]]:
-        """What says nothing of its own does as its instance does (6.5.6.2)."""
+        """What says nothing of its own does as its instance does (6.5.6.2). References are not kept: where a variable
+        is may differ from one version of a program to the next."""
         for variable, offset in record.offsets.items():
             if variable.section is not Section.IN_OUT:
                 retain = inherited if variable.retain is None else variable.retain
@@ -203,19 +213,23 @@ class Layout:
         shape = ty.unaliased(declared)
         if isinstance(shape, ty.BlockType):
             yield from self._retained_in_record(self.record(shape), at, retain)
-        elif isinstance(shape, ty.ArrayType) and isinstance(ty.unaliased(shape.element), ty.BlockType):
+        elif not (ty.holds_instance(shape) or ty.holds_reference(shape)):
+            if retain:
+                yield at, self.size_of(shape)
+        elif isinstance(shape, ty.ArrayType):
             element = self.size_of(shape.element)
             for number in range(math.prod(shape.lengths)):
                 yield from self._retained_in(shape.element, at + element.times(number), retain)
-        elif retain:
-            yield at, self.size_of(shape)
+        elif isinstance(shape, ty.StructType):
+            for variable, offset in self.record(shape).offsets.items():
+                yield from self._retained_in(variable.type, at + offset, retain)
 
     def find_single_bases(self) -> None:
         """Counts the instances of each block and program, once all have their positions."""
         bases: dict[Pou, list[Size]] = {}
         for run, base in zip(self.module.programs, self.instances, strict=True):
             bases.setdefault(run.pou, []).append(base)
-        for declared, _, at in self.storages():
+        for declared, _, at, _ in self.storages():
             for pou, base in self._instances_in(declared, at):
                 bases.setdefault(pou, []).append(base)
         self._single_bases = {pou: found[0] if len(found) == 1 else None for pou, found in bases.items()}

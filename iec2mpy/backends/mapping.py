@@ -13,7 +13,13 @@ from iec2mpy.semantics.typed import Variable
 from iec2mpy.semantics.types import Kind
 from iec2mpy.syntax.tree import PouKind, Section
 
-_KINDS = {Kind.BOOL: "bool", Kind.REAL: "real", Kind.DURATION: "duration", Kind.CHARACTER: "character"}
+_KINDS = {
+    Kind.BOOL: "bool",
+    Kind.REAL: "real",
+    Kind.DURATION: "duration",
+    Kind.CHARACTER: "character",
+    Kind.REFERENCE: "reference",
+}
 
 
 def make_map(layout: Layout, sites: list[Site], program: str) -> MemoryMap:
@@ -153,4 +159,6 @@ def _leaf(
     if isinstance(shape, ty.EnumType):
         kind, type_name = "enum", shape.name
         enums[shape.name] = dict(shape.values)
+    elif isinstance(shape, ty.RefType):
+        low = high = 0  # only NULL can be written from outside
     return MappedVariable(path, type_name, kind, "V", at.v, low, high, dimensions["V"])

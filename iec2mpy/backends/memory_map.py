@@ -91,7 +91,13 @@ class BadValue(ValueError):
     """The variable cannot have this value; the text says what it can have."""
 
 
-_TOLD_BY_NAME = {"bool": "BOOL", "character": "CHAR", "string": "STRING", "wstring": "WSTRING"}
+_TOLD_BY_NAME = {
+    "bool": "BOOL",
+    "character": "CHAR",
+    "string": "STRING",
+    "wstring": "WSTRING",
+    "reference": "REF_TO",
+}
 """The types that the board tells by their name, by the kind of a variable."""
 
 _TOKEN = re.compile(r"\.?([^.\[\]]+)|\[([^\]]*)\]")

@@ -22,8 +22,8 @@ def reset_lines(
     lines = ["", "def reset():", "    # cold start: every variable gets its initial value"]
     for array, first in (("V", FIRST), ("O", FIRST_OBJECT)):
         values: list[object] = [0] * layout.size.v if array == "V" else [None] * layout.size.o
-        for declared, value, at in layout.storages():
-            stored = flat_values(layout, declared, value, array)
+        for declared, value, at, homes in layout.storages():
+            stored = flat_values(layout, declared, value, array, at, homes)
             values[at.of(array) : at.of(array) + len(stored)] = stored
         if array == "V":
             for constant, slot in layout.constants.items():

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from iec2mpy.backends import forms
 from iec2mpy.backends.expressions import ExpressionWriter, quoted
 from iec2mpy.backends.forms import Binding, Text, call, infix, number
-from iec2mpy.backends.layout import LOOP, SITE, Layout
+from iec2mpy.backends.layout import LOOP, NOWHERE, SITE, Layout
 from iec2mpy.backends.names import SlotNames
 from iec2mpy.backends.reals import real_text
 from iec2mpy.backends.sites import Sites
@@ -189,7 +189,7 @@ class StatementWriter:
     def _reset(self, place: n.Place, value: object) -> None:
         written_for = self.expressions.target, self.expressions.names
         for array in ("V", "O"):
-            values = flat_values(self.expressions.layout, place.type, value, array)
+            values = flat_values(self.expressions.layout, place.type, value, array, NOWHERE, {})
             if not values:
                 continue
             start = self.expressions.addresses.subscript(place, array).code

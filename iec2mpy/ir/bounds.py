@@ -49,6 +49,8 @@ def _bounds(expr: n.Expr, known: Known) -> Bounds | None:
             return found
         case n.Load(place):
             return known(expr) or ty.value_range(place.type)
+        case n.Ref():
+            return 1, ty.REFERENCE.high  # never NULL
         case n.Wrap(operand, value_type):
             inner = bounds(operand, known) if not operand.type.in_objects else None
             limits = _type_bounds(value_type)

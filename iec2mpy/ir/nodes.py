@@ -12,8 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from iec2mpy.semantics.typed import Pou, Scalar, Task, Variable
-from iec2mpy.semantics.types import ElementaryType, StringType, Type
+from iec2mpy.semantics.types import REFERENCE, ElementaryType, RefType, StringType, Type, unaliased
 from iec2mpy.source.spans import Span
+from iec2mpy.syntax.tree import Section
 
 ValueType = ElementaryType | StringType
 """The type of an expression: what a single value is stored as."""
@@ -44,9 +45,11 @@ class Frame:
 
 @dataclass(frozen=True, slots=True)
 class Deref:
-    """What an in-out stands for: `reference` is the place of the in-out's own slot."""
+    """What an in-out stands for, or what a reference refers to: a variable of that declared type. `reference` is not
+    NULL: for an in-out a Load of its own slot, else checked by a Guard."""
 
-    reference: Place
+    reference: Expr
+    type: Type
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +77,11 @@ class Place:
     root: Root
     steps: tuple[Step, ...]
     type: Type
+
+
+def storage_type(variable: Variable) -> Type:
+    """The type of what a variable itself holds, without aliases: an in-out holds a reference."""
+    return RefType(variable.type) if variable.section is Section.IN_OUT else unaliased(variable.type)
 
 
 # ------------------------------------------------------------------------------------------- expressions
@@ -105,6 +113,14 @@ class Local:
 class Load:
     place: Place
     type: ValueType
+
+
+@dataclass(frozen=True, slots=True)
+class Ref:
+    """A reference to the place."""
+
+    place: Place
+    type: ValueType = REFERENCE
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,7 +188,7 @@ class Intrinsic:
     type: ValueType
 
 
-Expr = Const | Local | Load | Now | Op | Not | Wrap | ToReal | Select | Intrinsic
+Expr = Const | Local | Load | Ref | Now | Op | Not | Wrap | ToReal | Select | Intrinsic
 
 ARITHMETIC = frozenset({"add", "sub", "mul"})
 COMPARISONS = {"eq": "==", "ne": "!=", "lt": "<", "gt": ">", "le": "<=", "ge": ">="}

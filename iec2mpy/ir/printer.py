@@ -74,6 +74,8 @@ def _expr(expr: n.Expr) -> str:
             return f"%{number}" + (f"[{low}..{high}]" if low is not None else "")
         case n.Load(place):
             return _place(place)
+        case n.Ref(place):
+            return f"REF({_place(place)})"
         case n.Now():
             return "now"
         case n.Op(name, left, right):
@@ -99,7 +101,7 @@ def _place(place: n.Place) -> str:
         case n.Frame(pou):
             text = f"{pou.name}'"
         case n.Deref(reference):
-            text = f"{_place(reference)}^"
+            text = f"{_expr(reference)}^"
     for step in place.steps:
         text += f".{step.variable.name}" if isinstance(step, n.Field) else f"[{_expr(step.index)}]"
     return text

@@ -45,11 +45,8 @@ def problems(body: n.Body, module: n.Module) -> Iterator[str]:
 
 
 def _all_places(statement: n.Stmt) -> Iterator[n.Place]:
-    for place in (*places(statement), *(e.place for e in expressions(statement) if isinstance(e, n.Load))):
-        yield place
-        while isinstance(place.root, n.Deref):
-            place = place.root.reference
-            yield place
+    yield from places(statement)
+    yield from (e.place for e in expressions(statement) if isinstance(e, (n.Load, n.Ref)))
 
 
 def _alike(declared: ty.Type, stored: n.ValueType) -> bool:

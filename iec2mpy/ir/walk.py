@@ -16,7 +16,7 @@ def map_expr(expr: n.Expr, rewrite: Rewrite) -> n.Expr:
     match expr:
         case n.Const() | n.Local() | n.Now():
             return rewrite(expr)
-        case n.Load(place):
+        case n.Load(place) | n.Ref(place):
             new = map_place(place, rewrite)
             return rewrite(expr if new is place else replace(expr, place=new))
         case n.Op(_, left, right):
@@ -37,8 +37,8 @@ def map_place(place: n.Place, rewrite: Rewrite) -> n.Place:
     """The place with its subscripts rewritten."""
     root = place.root
     if isinstance(root, n.Deref):
-        reference = map_place(root.reference, rewrite)
-        root = root if reference is root.reference else n.Deref(reference)
+        reference = map_expr(root.reference, rewrite)
+        root = root if reference is root.reference else n.Deref(reference, root.type)
     steps = place.steps
     if any(isinstance(step, n.Element) for step in steps):
         steps = tuple(n.Element(map_expr(s.index, rewrite)) if isinstance(s, n.Element) else s for s in steps)
@@ -73,11 +73,11 @@ def map_statement_exprs(statement: n.Stmt, rewrite: Rewrite) -> n.Stmt:
 
 
 def map_statement_places(statement: n.Stmt, rewrite: Callable[[n.Place], n.Place]) -> n.Stmt:
-    """The statement with every place in it rewritten, those in its expressions too; inner blocks are left alone. What a
-    place is reached by, as an in-out, is up to `rewrite`."""
+    """The statement with every place in it rewritten, those in its expressions too; inner blocks are left alone. The
+    reference that a place is reached by is rewritten before the place."""
 
     def in_expr(expr: n.Expr) -> n.Expr:
-        return n.Load(rewrite(expr.place), expr.type) if isinstance(expr, n.Load) else expr
+        return replace(expr, place=rewrite(expr.place)) if isinstance(expr, (n.Load, n.Ref)) else expr
 
     statement = map_statement_exprs(statement, in_expr)
     match statement:
@@ -182,7 +182,7 @@ def parts(expr: n.Expr) -> Iterator[n.Expr]:
     """The expression and everything in it."""
     yield expr
     match expr:
-        case n.Load(place):
+        case n.Load(place) | n.Ref(place):
             yield from _place_expressions(place)
         case n.Op(_, left, right):
             yield from parts(left)
@@ -207,7 +207,7 @@ def may_fault(expr: n.Expr) -> bool:
 
 def _place_expressions(place: n.Place) -> Iterator[n.Expr]:
     if isinstance(place.root, n.Deref):
-        yield from _place_expressions(place.root.reference)
+        yield from parts(place.root.reference)
     for step in place.steps:
         if isinstance(step, n.Element):
             yield from parts(step.index)

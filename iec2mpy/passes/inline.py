@@ -13,7 +13,6 @@ from iec2mpy.ir import Module
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.walk import map_block, map_statement_exprs, map_statement_places, statements
 from iec2mpy.passes.returns import without_returns
-from iec2mpy.semantics import types as ty
 from iec2mpy.semantics.typed import Pou
 from iec2mpy.syntax.tree import Section
 
@@ -73,7 +72,7 @@ def _taken_bindings(before: list[n.Stmt], call: n.Call) -> dict[n.Place, n.Place
     taken out of what comes before the call: the code in its place names that itself."""
     root, steps = (call.instance.root, call.instance.steps) if call.instance else (n.Frame(call.pou), ())
     in_outs = [v for v in call.pou.parameters if v.section is Section.IN_OUT]
-    own = {n.Place(root, (*steps, n.Field(v)), ty.unaliased(v.type)) for v in in_outs}
+    own = {n.Place(root, (*steps, n.Field(v)), n.storage_type(v)) for v in in_outs}
     found: dict[n.Place, n.Place] = {}
     position = len(before)
     while len(found) < len(own):
@@ -109,11 +108,9 @@ def _placed(block: n.Block, call: n.Call, first_local: int, bindings: dict[n.Pla
 
     def place(old: n.Place) -> n.Place:
         if isinstance(old.root, n.Deref):
-            reference = place(old.root.reference)
-            target = bindings.get(reference)
-            if target is not None:
-                return n.Place(target.root, (*target.steps, *old.steps), old.type)
-            return n.Place(n.Deref(reference), old.steps, old.type)
+            reference = old.root.reference
+            target = bindings.get(reference.place) if isinstance(reference, n.Load) else None
+            return n.Place(target.root, (*target.steps, *old.steps), old.type) if target is not None else old
         if not isinstance(old.root, n.Self):
             return old
         assert call.instance is not None

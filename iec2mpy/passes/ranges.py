@@ -28,9 +28,11 @@ class _Facts:
     variables: dict[int, Bounds] = field(default_factory=dict)
     numbers: dict[n.Place, int] = field(default_factory=dict)
     """Of the places in `variables`: to hash a place takes time, and facts are copied and compared at each branch."""
+    references: set[int] = field(default_factory=set)
+    """The numbers of those that hold a reference."""
 
     def copy(self) -> _Facts:
-        return _Facts(self.pou, dict(self.locals), dict(self.variables), self.numbers)
+        return _Facts(self.pou, dict(self.locals), dict(self.variables), self.numbers, self.references)
 
     def of(self, expr: n.Expr) -> Bounds | None:
         if isinstance(expr, n.Local):
@@ -38,7 +40,10 @@ class _Facts:
         return self.variables.get(self.numbers.get(expr.place, -1)) if isinstance(expr, n.Load) else None
 
     def number(self, place: n.Place) -> int:
-        return self.numbers.setdefault(place, len(self.numbers))
+        number = self.numbers.setdefault(place, len(self.numbers))
+        if isinstance(place.type, ty.RefType):
+            self.references.add(number)
+        return number
 
     def learn(self, expr: n.Expr, low: int, high: int) -> None:
         """The expression, a local or a plain variable, is inside of bounds."""
@@ -139,9 +144,12 @@ def _forget_what_changes(body: n.Block, facts: _Facts) -> None:
 
 
 def _forget(place: n.Place, facts: _Facts) -> None:
-    """A store through an in-out may change anything; a whole array or structure, what is in it."""
+    """A store through an in-out or a reference may change anything that has its type; a whole array or structure, what
+    is in it."""
     if isinstance(place.root, n.Deref) or _may_be_own(place, facts.pou) or ty.value_type(place.type) is None:
-        facts.variables.clear()
+        # a reference is only ever written as one: so it is tested for NULL once, and not at each use
+        kept = facts.references if ty.value_type(place.type) not in (None, ty.REFERENCE) else ()
+        facts.variables = {number: facts.variables[number] for number in kept if number in facts.variables}
     else:
         facts.variables.pop(facts.number(place), None)
 
@@ -204,9 +212,14 @@ def _compare(name: str, left: n.Expr, right: n.Expr, facts: _Facts) -> None:
         "gt": lambda: (right_low + 1, high),
         "ge": lambda: (right_low, high),
         "eq": lambda: (right_low, right_high),
-        "ne": lambda: (low, high),
+        "ne": lambda: _without((low, high), right_low) if right_low == right_high else (low, high),
     }
     facts.learn(left, *learn[name]())
+
+
+def _without(found: Bounds, value: int) -> Bounds:
+    """Bounds that a value, which is not meant, may make narrower."""
+    return found[0] + (found[0] == value), found[1] - (found[1] == value)
 
 
 # -------------------------------------------------------------------------------------------- expressions

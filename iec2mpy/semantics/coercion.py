@@ -27,6 +27,7 @@ from iec2mpy.semantics.types import (
     ElementaryType,
     EnumType,
     Kind,
+    RefType,
     StringType,
     StructType,
     SubrangeType,
@@ -146,6 +147,10 @@ def _mismatch(scope: Scope, value: Expr, target: Type, code: str, needs: str | N
 
 def _mismatch_hint(value: Expr, target: Type) -> str | None:
     source, to = value.type, base_type(target)
+    if isinstance(source, RefType) and same_type(source.target, target):
+        return f"Write {shown(value.span)}^ for what it refers to."
+    if isinstance(to, RefType) and same_type(source, to.target):
+        return f"Write REF({shown(value.span)})."
     if to is TIME and is_number(source):
         return "Write a duration such as T#500ms, or multiply T#1ms by the number."
     if to is BOOL and is_number(source):

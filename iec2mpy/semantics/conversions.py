@@ -11,6 +11,7 @@ from iec2mpy.semantics.types import (
     DWORD,
     ELEMENTARY,
     INT,
+    NULL_TYPE,
     REAL,
     SINT,
     TIME,
@@ -21,6 +22,7 @@ from iec2mpy.semantics.types import (
     ArrayType,
     ElementaryType,
     Kind,
+    RefType,
     StringType,
     SubrangeType,
     Type,
@@ -66,6 +68,8 @@ def same_type(a: Type, b: Type) -> bool:
         return (a.base, a.low, a.high) == (b.base, b.low, b.high)
     if isinstance(a, ArrayType) and isinstance(b, ArrayType):
         return a.bounds == b.bounds and same_type(a.element, b.element)
+    if isinstance(a, RefType) and isinstance(b, RefType):
+        return same_type(a.target, b.target)  # a directly derived type is the same (6.4.4.10.1)
     return a == b
 
 
@@ -77,6 +81,8 @@ def converts_implicitly(source: Type, target: Type) -> bool:
         return source is target.character or (isinstance(source, StringType) and source.wide == target.wide)
     if isinstance(source, ElementaryType):
         return source is target or target in _WIDER.get(source, ())
+    if source is NULL_TYPE:
+        return isinstance(target, RefType)
     return same_type(source, target)
 
 
@@ -96,7 +102,9 @@ def joined_type(a: Type, b: Type) -> Type | None:
         return b if isinstance(b, StringType) and b.length > a.length else a
     if isinstance(b, StringType) and converts_implicitly(a, b):
         return b
-    return a if same_type(a, b) else None
+    if converts_implicitly(b, a):
+        return a
+    return b if converts_implicitly(a, b) else None
 
 
 def literal_type(value: int) -> ElementaryType | None:

@@ -9,9 +9,20 @@ from iec2mpy.semantics.conversions import same_type
 from iec2mpy.semantics.defaults import default_value
 from iec2mpy.semantics.initial_values import initial_value
 from iec2mpy.semantics.scope import UNKNOWN, GlobalDeclaration, GlobalScope, Scope
-from iec2mpy.semantics.type_specs import holds_instance, resolve_type
+from iec2mpy.semantics.type_specs import resolve_type
 from iec2mpy.semantics.typed import EdgeInput, Pou, Value, Variable
-from iec2mpy.semantics.types import BOOL, AliasType, ArrayType, BlockType, StructType, Type, unaliased
+from iec2mpy.semantics.types import (
+    BOOL,
+    AliasType,
+    ArrayType,
+    BlockType,
+    RefType,
+    StructType,
+    Type,
+    holds_instance,
+    holds_reference,
+    unaliased,
+)
 from iec2mpy.source.diagnostics import Related
 from iec2mpy.source.dialects import with_dialects
 from iec2mpy.source.spans import Span
@@ -235,6 +246,15 @@ def _add_edge(pou: Pou, variable: Variable, edge: tree.Edge) -> None:
 
 def _may_hold(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tree.VarDecl, t: Type) -> bool:
     """Whether a variable of the type may stand in the section; instances of blocks may not everywhere (6.6.3.2)."""
+    if section.section is Section.IN_OUT and isinstance(unaliased(t), RefType):
+        # 6.4.4.10.3
+        scope.diagnostics.add(
+            "E0712",
+            "A reference cannot stand in VAR_IN_OUT.",
+            declaration.span,
+            "Give it to VAR_INPUT: what it refers to can be written there, too.",
+        )
+        return False
     blocks = list(_blocks_in(t))
     if not blocks or section.section in (Section.IN_OUT, Section.EXTERNAL):
         return True
@@ -343,11 +363,18 @@ def _no_address(scope: Scope, pou: Pou, location: tree.DirectVariable) -> None:
 def _locate(scope: Scope, location: tree.DirectVariable, variable: Variable) -> None:
     if not is_supported(scope, location):
         return
-    if variable.type is not UNKNOWN and holds_instance(variable.type):
-        scope.diagnostics.add("E0704", "An instance of a block has no address.", location.span)
+    if variable.type is not UNKNOWN and (what := _without_address(variable.type)):
+        scope.diagnostics.add("E0704", f"{what} has no address.", location.span)
         return
     variable.address = location.text
     scope.world.located.append(variable)
+
+
+def _without_address(t: Type) -> str | None:
+    """What a variable of the type is or holds that cannot stand at an address."""
+    if holds_instance(t):
+        return "An instance of a block"
+    return "A reference" if holds_reference(t) else None
 
 
 def _unnamed(scope: Scope, declaration: tree.VarDecl) -> None:

@@ -11,6 +11,7 @@ from iec2mpy.semantics.types import (
     ElementaryType,
     EnumType,
     Kind,
+    RefType,
     StringType,
     StructType,
     SubrangeType,
@@ -26,6 +27,8 @@ def default_value(t: Type) -> Value:
         return ""
     if isinstance(t, (EnumType, SubrangeType, AliasType)):
         return t.default
+    if isinstance(t, RefType):
+        return 0  # NULL (6.4.4.10.2)
     if isinstance(t, ArrayType):
         return nested([default_value(t.element)] * element_count(t.lengths), t.lengths)
     if isinstance(t, StructType):

@@ -10,8 +10,8 @@ from iec2mpy.semantics.literals import literal
 from iec2mpy.semantics.names import enumerated_value, is_enumerated, is_nothing_else, qualified_value, unknown_value
 from iec2mpy.semantics.references import Use, reference
 from iec2mpy.semantics.scope import Scope
-from iec2mpy.semantics.typed import Constant, Expr, PartRef, VariableRef
-from iec2mpy.semantics.types import EnumType, Type, base_type, unaliased, value_type
+from iec2mpy.semantics.typed import Constant, Expr, PartRef, ReferenceTo, VariableRef
+from iec2mpy.semantics.types import EnumType, RefType, Type, base_type, unaliased, value_type
 from iec2mpy.syntax import tree
 
 
@@ -57,6 +57,11 @@ def _variable(scope: Scope, expr: tree.Expr, expected: Type | None) -> Expr | No
     if not isinstance(value, (int, float, str)) or value_type(found.type) is None:
         return found  # a constant array or structure stays a variable
     return Constant(value, base_type(found.type), expr.span)
+
+
+def _reference(scope: Scope, expr: tree.RefExpr, expected: Type | None) -> Expr | None:
+    target = reference(scope, expr.operand, Use.REFER)
+    return target and ReferenceTo(target, RefType(target.type), expr.span)
 
 
 def _typed_enum_value(scope: Scope, expr: tree.TypedEnumValue, expected: Type | None) -> Expr | None:
@@ -109,7 +114,8 @@ _CHECKERS: Mapping[type, Callable[..., Expr | None]] = {
     tree.MemberExpr: _variable,
     tree.PartExpr: _variable,
     tree.IndexExpr: _variable,
-    tree.DerefExpr: _not_yet("Following a reference (`x^`)"),
+    tree.DerefExpr: _variable,
+    tree.RefExpr: _reference,
     tree.CallExpr: _call,
     tree.UnaryExpr: _unary,
     tree.BinaryExpr: _binary,

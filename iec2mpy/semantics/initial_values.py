@@ -4,11 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from iec2mpy.semantics import constants, declarations
+from iec2mpy.semantics import constants, declarations, expressions
+from iec2mpy.semantics.coercion import coerce
 from iec2mpy.semantics.defaults import default_value, element_count, nested
 from iec2mpy.semantics.scope import UNKNOWN, Scope
 from iec2mpy.semantics.signatures import parameter_key
-from iec2mpy.semantics.typed import Value, Variable
+from iec2mpy.semantics.typed import (
+    Address,
+    Constant,
+    ElementRef,
+    Expr,
+    FieldRef,
+    ReferenceTo,
+    Value,
+    Variable,
+    VariableRef,
+)
 from iec2mpy.semantics.types import (
     ArrayType,
     BlockType,
@@ -45,8 +56,49 @@ def _merged(scope: Scope, t: Type, default: Value, initial: tree.Initial) -> Val
         how = "in square brackets: [1, 2, 3]" if isinstance(shape, ArrayType) else "by name: (x := 1, y := 2)"
         _wrong_shape(scope, t, initial, f"its values are listed {how}")
         return default
-    value = constants.scalar(scope, initial, t, "An initial value")
+    if isinstance(initial, tree.RefExpr):
+        value = _address(scope, t, initial)
+    else:
+        value = constants.scalar(scope, initial, t, "An initial value")
     return default if value is None else value
+
+
+def _address(scope: Scope, t: Type, initial: tree.RefExpr) -> Address | None:
+    """REF(variable) of a variable that is already declared (6.4.4.10.2)."""
+    checked = expressions.check(scope, initial)
+    reference = checked and coerce(scope, checked, t)
+    if not isinstance(reference, ReferenceTo):
+        return None
+    found = _way_to(reference.target)
+    if found is None:
+        scope.diagnostics.add(
+            "E0505",
+            "An initial value must be constant, and where this variable is changes while the program runs.",
+            initial.span,
+            "Assign the reference in the body.",
+        )
+    return found
+
+
+def _way_to(target: Expr) -> Address | None:
+    """Where a variable or a part of it is, or None where that depends on more than the instance that holds it."""
+    if isinstance(target, VariableRef):
+        is_own = target.variable.section is not tree.Section.IN_OUT
+        return Address(target.variable, (), target.type) if is_own else None
+    if not isinstance(target, (FieldRef, ElementRef)):
+        return None
+    base = _way_to(target.base)
+    if base is None:
+        return None
+    if isinstance(target, FieldRef):
+        return Address(base.variable, (*base.steps, target.field), target.type)
+    number, array = 0, target.base.type
+    assert isinstance(array, ArrayType)
+    for index, (low, _), length in zip(target.indices, array.bounds, array.lengths, strict=True):
+        if not isinstance(index, Constant):
+            return None
+        number = number * length + int(index.value) - low
+    return Address(base.variable, (*base.steps, number), target.type)
 
 
 def _wrong_shape(scope: Scope, t: Type, initial: tree.Initial, why: str) -> None:

@@ -9,7 +9,18 @@ from iec2mpy.semantics.arithmetic import to_single, truncating_divide
 from iec2mpy.semantics.conversions import UNTYPED_INT, UNTYPED_REAL, type_named
 from iec2mpy.semantics.scope import Scope
 from iec2mpy.semantics.typed import Constant
-from iec2mpy.semantics.types import BOOL, NOT_YET, REAL, TIME, ElementaryType, Kind, StringType, Type, base_type
+from iec2mpy.semantics.types import (
+    BOOL,
+    NOT_YET,
+    NULL_TYPE,
+    REAL,
+    TIME,
+    ElementaryType,
+    Kind,
+    StringType,
+    Type,
+    base_type,
+)
 from iec2mpy.syntax import tree
 
 _NANOSECONDS = 1_000_000
@@ -109,6 +120,10 @@ def _duration(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
     return None
 
 
+def _null(_scope: Scope, expr: tree.Literal, _prefix: str) -> Constant:
+    return Constant(0, NULL_TYPE, expr.span)
+
+
 def _no_such_literal(scope: Scope, expr: tree.Literal, prefix: str) -> None:
     if type_named(prefix):
         scope.diagnostics.add("E0301", f"This is no value of the type {prefix}.", expr.span)
@@ -121,4 +136,5 @@ _LITERALS: Mapping[str, Callable[[Scope, tree.Literal, str], Constant | None]] =
     "int": _integer,
     "real": _real,
     "duration": _duration,
+    "null": _null,
 }

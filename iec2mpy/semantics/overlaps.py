@@ -41,8 +41,17 @@ def share_storage(world: GlobalScope) -> list[Variable]:
     storages: list[Variable] = []
     for cluster in _clusters(list(extents.values())):
         if not _is_plain(cluster) and _may_share(world, cluster):
+            _refuse_references(world, cluster)
             storages.append(_share(cluster))
     return storages
+
+
+def _refuse_references(world: GlobalScope, cluster: Sequence[_Extent]) -> None:
+    for variable in (extent.variable for extent in cluster):
+        if variable.referred is not None:
+            message = f"{variable.address} shares its storage with other addresses: it cannot be referred to."
+            hint = "Copy it to a variable of its own, and refer to that."
+            world.diagnostics.add("E0608", message, variable.referred, hint)
 
 
 def place_of(address: str) -> tuple[str, int, int]:

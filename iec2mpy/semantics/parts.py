@@ -22,6 +22,10 @@ def part(scope: Scope, expr: tree.PartExpr, use: references.Use) -> Expr | None:
         hint = f"Give it a name: VAR name AT {expr.base.text} : … ; END_VAR, and take the part of that."
         scope.diagnostics.add("E0607", f"{expr.base.text} is an address: its parts have no names.", expr.span, hint)
         return None
+    if use is references.Use.REFER:
+        message = "A part of a bit string cannot be referred to."
+        scope.diagnostics.add("E0608", message, expr.span, "Refer to the whole.")
+        return None
     if use is references.Use.IN_OUT:
         hint = "Copy it to a variable, give that, and copy it back after the call."
         scope.diagnostics.add("E0606", "A part of a bit string cannot be given to an in-out.", expr.span, hint)

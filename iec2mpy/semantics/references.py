@@ -15,6 +15,7 @@ from iec2mpy.semantics.signatures import parameter_key
 from iec2mpy.semantics.typed import (
     CharacterRef,
     Constant,
+    Dereference,
     DirectRef,
     ElementRef,
     Expr,
@@ -23,9 +24,11 @@ from iec2mpy.semantics.typed import (
     VariableRef,
 )
 from iec2mpy.semantics.types import (
+    NULL_TYPE,
     ArrayType,
     BlockType,
     EnumType,
+    RefType,
     StringType,
     StructType,
     Type,
@@ -46,6 +49,7 @@ class Use(Enum):
     WRITE = "written"
     CALL = "called"
     IN_OUT = "given to an in-out"
+    REFER = "referred to"
 
 
 def reference(scope: Scope, expr: tree.Expr, use: Use) -> Expr | None:
@@ -58,10 +62,11 @@ def reference(scope: Scope, expr: tree.Expr, use: Use) -> Expr | None:
 
 
 def _no_variable(scope: Scope, expr: tree.Expr, use: Use) -> None:
-    if isinstance(expr, tree.DerefExpr):
-        expressions.check(scope, expr)  # reports it as not supported yet
-        return
-    if use is Use.IN_OUT:
+    if use is Use.REFER:
+        scope.diagnostics.add(
+            "E0608", "REF takes a variable, and this is a value.", expr.span, "Only variables and their parts are kept."
+        )
+    elif use is Use.IN_OUT:
         scope.diagnostics.add(
             "E0406",
             "An in-out needs a variable, and this is a value.",
@@ -85,7 +90,9 @@ def _name(scope: Scope, expr: tree.NameExpr, use: Use) -> Expr | None:
     key = expr.name.casefold()
     variable = scope.locals.get(key)
     if variable is None and scope.pou is None:
-        variable = declarations.shared_constant(scope.world, key)
+        # outside of POUs a name is a constant, or a global variable whose address is an initial value (6.4.4.10.2)
+        known = declarations.global_variable if use is Use.REFER else declarations.shared_constant
+        variable = known(scope.world, key)
     if variable is None and scope.pou is not None and accepts(expr.span.file, "global-without-external"):
         variable = declarations.global_variable(scope.world, key)
     if variable is None:
@@ -97,6 +104,8 @@ def _name(scope: Scope, expr: tree.NameExpr, use: Use) -> Expr | None:
     if variable.type is UNKNOWN or not _may_use(scope, variable, use, expr.span):
         return None
     found = variable.target or variable
+    if use is Use.REFER:
+        found.referred = expr.span
     return VariableRef(found, unaliased(found.type), expr.span)
 
 
@@ -107,8 +116,17 @@ def _may_use(scope: Scope, variable: Variable, use: Use, span: Span) -> bool:
     if variable.constant:
         add("E0507", f"`{variable.name}` is a constant: it cannot be {use.value}.", span, None, [_declared(variable)])
         return False
+    if use is Use.REFER and _is_temporary(scope, variable):
+        add(
+            "E0608",
+            f"`{variable.name}` is only there while `{_owner(scope)}` runs: it cannot be referred to.",
+            span,
+            "Declare it in VAR of a PROGRAM or FUNCTION_BLOCK.",
+            [_declared(variable)],
+        )
+        return False
     if variable.section is Section.INPUT and not accepts(span.file, "written-input"):
-        code = "E0606" if use is Use.IN_OUT else "E0604"
+        code = _REFUSALS.get(use, "E0604")
         hint = (
             "Copy it to a variable of VAR or VAR_TEMP, and change that."
             if use is Use.WRITE
@@ -141,6 +159,17 @@ def _may_use(scope: Scope, variable: Variable, use: Use, span: Span) -> bool:
     return True
 
 
+_REFUSALS = {Use.READ: "E0605", Use.IN_OUT: "E0606", Use.REFER: "E0608"}
+"""The codes for what a section forbids; E0604 for the others."""
+
+
+def _is_temporary(scope: Scope, variable: Variable) -> bool:
+    """VAR_TEMP, and any variable inside of a function (6.4.4.10.3)."""
+    in_function = scope.pou is not None and scope.pou.kind is PouKind.FUNCTION
+    is_global = variable.owner is None or variable.section is Section.EXTERNAL
+    return variable.section is Section.TEMP or (in_function and not is_global)
+
+
 def _result_of(scope: Scope) -> Variable | None:
     return scope.pou.result if scope.pou is not None else None
 
@@ -164,6 +193,10 @@ def _is_list_of(scope: Scope, key: str, member: str) -> bool:
 def _direct(scope: Scope, expr: tree.DirectVariable, use: Use) -> Expr | None:
     variable = addresses.direct_variable(scope, expr)
     if variable is None or variable.type is UNKNOWN:
+        return None
+    if use is Use.REFER:
+        hint = f"Declare a variable AT {expr.text}, and refer to that."
+        scope.diagnostics.add("E0608", f"REF takes a variable, and {expr.text} is an address.", expr.span, hint)
         return None
     if use in (Use.WRITE, Use.IN_OUT) and expr.area == "I":
         scope.diagnostics.add("E0604", f"{expr.text} is an input: it cannot be {use.value}.", expr.span)
@@ -264,7 +297,7 @@ def _of_instance(scope: Scope, expr: tree.MemberExpr, base: Expr, t: BlockType, 
 
 def _refused(scope: Scope, expr: tree.MemberExpr, variable: Variable, t: BlockType, use: Use) -> None:
     section = variable.section.value if variable.section else ""
-    code, hint = "E0605" if use is Use.READ else "E0604", None
+    code, hint = _REFUSALS.get(use, "E0604"), None
     if variable.section is Section.INPUT:
         hint = "Read the variable that was given to it."
     elif variable.section is Section.OUTPUT:
@@ -273,8 +306,6 @@ def _refused(scope: Scope, expr: tree.MemberExpr, variable: Variable, t: BlockTy
         hint = "Use the variable that was given to the in-out in the call."
     else:
         hint = f"Only the inputs and outputs of {t} are for others."
-    if use is Use.IN_OUT:
-        code = "E0606"
     message = f"`{variable.name}` is {section} of {t}: it cannot be {use.value} from outside."
     scope.diagnostics.add(code, message, expr.name.span, hint, [_declared(variable)])
 
@@ -310,6 +341,10 @@ def _character(
     scope: Scope, expr: tree.IndexExpr, base: Expr, t: StringType, indices: Sequence[Expr | None], use: Use
 ) -> Expr | None:
     """A character of a string, by its position from 1 (6.4.2.2)."""
+    if use is Use.REFER:
+        message = "A character of a string cannot be referred to."
+        scope.diagnostics.add("E0608", message, expr.span, "Refer to the whole string.")
+        return None
     if use is Use.IN_OUT:
         scope.diagnostics.add(
             "E0406",
@@ -363,10 +398,30 @@ def _inside(scope: Scope, indices: Sequence[Expr], t: ArrayType) -> bool:
     return True
 
 
+def _dereferenced(scope: Scope, expr: tree.DerefExpr, use: Use) -> Expr | None:
+    """`base^` can be used as the variable itself (6.4.4.10.3), whatever is done with it."""
+    base = expressions.check(scope, expr.base)
+    if base is None:
+        return None
+    if not isinstance(base.type, RefType) or base.type is NULL_TYPE:
+        scope.diagnostics.add(
+            "E0315",
+            f"`^` follows a reference, but this is {describe(base.type)}.",
+            expr.span,
+            None if base.type is NULL_TYPE else f"Write `{expr.base.span.text}` alone.",
+        )
+        return None
+    target = unaliased(base.type.target)
+    if isinstance(target, BlockType):
+        declarations.declare_pou(scope.world, target.pou.name.casefold())
+    return Dereference(base, target, expr.span)
+
+
 _FINDERS: Mapping[type, Callable[..., Expr | None]] = {
     tree.NameExpr: _name,
     tree.DirectVariable: _direct,
     tree.MemberExpr: _member,
     tree.IndexExpr: _element,
     tree.PartExpr: parts.part,
+    tree.DerefExpr: _dereferenced,
 }

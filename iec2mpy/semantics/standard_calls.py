@@ -20,6 +20,7 @@ from iec2mpy.semantics.types import (
     ElementaryType,
     EnumType,
     Kind,
+    RefType,
     StringType,
     StructType,
     Type,
@@ -272,7 +273,7 @@ def _member(generic: str, t: Type) -> Type | None:
     names = generic_members(generic)
     if isinstance(t, StringType):
         return t if t.name in names else None
-    if isinstance(t, EnumType):
+    if isinstance(t, (EnumType, RefType)):
         return t if generic == "ANY" else None
     if isinstance(t, ElementaryType) and t.name in names:
         return t

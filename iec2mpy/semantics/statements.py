@@ -25,7 +25,7 @@ from iec2mpy.semantics.typed import (
     VariableRef,
     While,
 )
-from iec2mpy.semantics.types import BOOL, EnumType, base_type
+from iec2mpy.semantics.types import BOOL, EnumType, RefType, base_type
 from iec2mpy.source.spans import Span
 from iec2mpy.syntax import tree
 
@@ -53,6 +53,26 @@ def _assign(scope: Scope, statement: tree.AssignStmt) -> Stmt | None:
     value = check(scope, statement.value, target.type if target is not None else None)
     if target is None or value is None:
         return None
+    converted = coerce(scope, value, target.type, "E0301", f"`{statement.target.span.text}` is {target.type}")
+    return converted and Assign(target, converted, statement.span)
+
+
+def _attempt(scope: Scope, statement: tree.AttemptStmt) -> Stmt | None:
+    """`target ?= value` (6.6.6.7): between references of one type it is an assignment. Others would need an instance of
+    a derived type, and there is no EXTENDS yet."""
+    target = reference(scope, statement.target, Use.WRITE)
+    value = check(scope, statement.value, target.type if target is not None else None)
+    if target is None or value is None:
+        return None
+    for side in (target, value):
+        if not isinstance(side.type, RefType):
+            scope.diagnostics.add(
+                "E0316",
+                f"`?=` is for references, but this is {describe(side.type)}.",
+                side.span,
+                "Write := to assign a value.",
+            )
+            return None
     converted = coerce(scope, value, target.type, "E0301", f"`{statement.target.span.text}` is {target.type}")
     return converted and Assign(target, converted, statement.span)
 
@@ -183,6 +203,7 @@ def _return(scope: Scope, statement: tree.ReturnStmt) -> Stmt | None:
 
 _CHECKERS: Mapping[type, Callable[..., Stmt | None]] = {
     tree.AssignStmt: _assign,
+    tree.AttemptStmt: _attempt,
     tree.CallStmt: _call,
     tree.IfStmt: _if,
     tree.CaseStmt: _case,

@@ -18,10 +18,10 @@ from iec2mpy.semantics.types import (
     NOT_YET,
     AliasType,
     ArrayType,
-    BlockType,
     ElementaryType,
     EnumType,
     Kind,
+    RefType,
     StringType,
     StructType,
     SubrangeType,
@@ -253,6 +253,11 @@ def _count(t: Type) -> int:
     return count
 
 
+def _reference(scope: Scope, spec: tree.RefSpec, name: str | None) -> Type:
+    target = resolve_type(scope, spec.target)
+    return target if target is UNKNOWN else RefType(target)
+
+
 def _struct(scope: Scope, spec: tree.StructSpec, name: str | None) -> Type:
     t = StructType(name or "STRUCT")
     for field in spec.fields:
@@ -284,14 +289,5 @@ _RESOLVERS: Mapping[type, Callable[..., Type]] = {
     tree.EnumSpec: _enumeration,
     tree.ArraySpec: _array,
     tree.StructSpec: _struct,
+    tree.RefSpec: _reference,
 }
-
-
-def holds_instance(t: Type) -> bool:
-    """Whether a variable of the type is, or contains, an instance of a function block."""
-    t = unaliased(t)
-    if isinstance(t, ArrayType):
-        return holds_instance(t.element)
-    if isinstance(t, StructType):
-        return any(holds_instance(field.type) for field in t.fields.values())
-    return isinstance(t, BlockType)

@@ -15,10 +15,23 @@ from iec2mpy.syntax.tree import Edge, PouKind, Section
 
 Scalar = int | float | str
 """A value as it is stored: BOOL 0 or 1, integers, bit strings and enumerations their (mathematical) number, TIME
-milliseconds, CHAR and WCHAR their code, REAL float, STRING and WSTRING str."""
-Value = Scalar | Sequence["Value"] | Mapping[str, "Value"]
-"""Also whole: arrays as (nested) sequences, structures and instances as mappings by case-folded name. Complete for
-arrays and structures; for an instance it holds only what is given, the rest follows from its declaration."""
+milliseconds, CHAR and WCHAR their code, REAL float, STRING and WSTRING str, NULL 0."""
+
+
+@dataclass(frozen=True, slots=True)
+class Address:
+    """REF(variable) as an initial value: the variable, and the way to the part of it that is meant, by fields and by
+    the numbers of elements from 0. `type` is that of the part."""
+
+    variable: Variable
+    steps: tuple[Variable | int, ...]
+    type: Type
+
+
+Value = Scalar | Address | Sequence["Value"] | Mapping[str, "Value"]
+"""Also a reference that is no NULL, and whole: arrays as (nested) sequences, structures and instances as mappings by
+case-folded name. Complete for arrays and structures; for an instance it holds only what is given, the rest follows from
+its declaration."""
 
 # ------------------------------------------------------------------------------------ variables and POUs
 
@@ -40,6 +53,7 @@ class Variable:
     For EXTERNAL, `target` is the global variable meant. `retain`: True for RETAIN, False for NON_RETAIN, and None where
     nothing is written: such a variable of an instance does as the instance does (6.5.6.2), others are not retained.
     `shared` is where a located variable lies that overlaps others.
+    `referred`: where there is a REF of it, so that it can be written under another name at any time.
     """
 
     name: str
@@ -53,6 +67,7 @@ class Variable:
     target: Variable | None = None
     owner: Pou | None = None
     shared: SharedPlace | None = None
+    referred: Span | None = None
 
     @property
     def key(self) -> str:
@@ -204,6 +219,24 @@ class CharacterRef:
 
 
 @dataclass(frozen=True, slots=True)
+class Dereference:
+    """`base^`: what a reference refers to; NULL faults at run time."""
+
+    base: Expr
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class ReferenceTo:
+    """`REF(target)`: a reference to a variable, an instance, or a part of one."""
+
+    target: Expr
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Convert:
     """From the operand's type to `type`; implicit ones (figure 12) and X_TO_Y alike. `truncate` is TRUNC."""
 
@@ -297,6 +330,8 @@ Expr = (
     | ElementRef
     | PartRef
     | CharacterRef
+    | Dereference
+    | ReferenceTo
     | Convert
     | Unary
     | Binary

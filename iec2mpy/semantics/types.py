@@ -25,6 +25,7 @@ class Kind(Enum):
     REAL = "real"
     DURATION = "duration"
     CHARACTER = "character"
+    REFERENCE = "reference"
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +72,10 @@ WCHAR = _unsigned("WCHAR", 16, Kind.CHARACTER)
 
 NO_RESULT = ElementaryType("no result", Kind.BOOL, 0, 0, 0)
 """What the call of a function without a result gives; such a call stands alone."""
+
+REFERENCE = _unsigned("reference", 30, Kind.REFERENCE)
+"""How a reference, or what an in-out stands for, is stored: the V slot in the low 16 bits, the O slot above; 0 is NULL.
+No variable is declared so."""
 
 ELEMENTARY: Mapping[str, ElementaryType] = {
     t.name: t for t in (BOOL, SINT, INT, DINT, USINT, UINT, UDINT, BYTE, WORD, DWORD, REAL, TIME, CHAR, WCHAR)
@@ -196,6 +201,20 @@ class BlockType:
         return self.name
 
 
+@dataclass(frozen=True, slots=True)
+class RefType:
+    """REF_TO target (6.4.4.10.1)."""
+
+    target: Type
+
+    def __str__(self) -> str:
+        return "NULL" if self.target is NO_RESULT else f"REF_TO {self.target}"
+
+
+NULL_TYPE = RefType(NO_RESULT)
+"""The type of NULL, which every reference can be. It stands in constants only."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class AliasType:
     """`TYPE speed : INT := 5; END_TYPE`: another name, and another initial value, of a type (table 11)."""
@@ -208,7 +227,7 @@ class AliasType:
         return self.name
 
 
-Type = ElementaryType | StringType | EnumType | SubrangeType | ArrayType | StructType | BlockType | AliasType
+Type = ElementaryType | StringType | EnumType | SubrangeType | ArrayType | StructType | BlockType | RefType | AliasType
 
 
 def base_type(t: Type) -> Type:
@@ -230,6 +249,8 @@ def value_type(t: Type) -> ElementaryType | StringType | None:
     t = base_type(t)
     if isinstance(t, EnumType):
         return t.base
+    if isinstance(t, RefType):
+        return REFERENCE
     return t if isinstance(t, (ElementaryType, StringType)) else None
 
 
@@ -242,3 +263,22 @@ def value_range(t: Type) -> tuple[int, int] | None:
     if isinstance(stored, ElementaryType) and not stored.in_objects:
         return stored.low, stored.high
     return None
+
+
+def holds_instance(t: Type) -> bool:
+    """Whether a variable of the type is, or contains, an instance of a function block."""
+    return _holds(t, BlockType)
+
+
+def holds_reference(t: Type) -> bool:
+    """Whether a variable of the type is, or contains, a reference; what stands in an instance does not count."""
+    return _holds(t, RefType)
+
+
+def _holds(t: Type, kind: type) -> bool:
+    t = unaliased(t)
+    if isinstance(t, ArrayType):
+        return _holds(t.element, kind)
+    if isinstance(t, StructType):
+        return any(_holds(field.type, kind) for field in t.fields.values())
+    return isinstance(t, kind)

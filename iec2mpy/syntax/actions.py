@@ -168,9 +168,8 @@ def error_operand(values: list[Any], _diagnostics: Diagnostics) -> tree.Literal:
 
 
 @action
-def null(values: list[Any], diagnostics: Diagnostics) -> tree.Literal:
-    not_supported("E0906", "References (`NULL`) are", values[0].span, diagnostics)
-    return tree.Literal("int", 0, None, values[0].span)
+def null(values: list[Any], _diagnostics: Diagnostics) -> tree.Literal:
+    return tree.Literal("null", 0, None, values[0].span)
 
 
 @action
@@ -246,16 +245,15 @@ def call(values: list[Any], _diagnostics: Diagnostics) -> tree.CallExpr:
 
 
 @action
-def dereference(values: list[Any], diagnostics: Diagnostics) -> tree.DerefExpr:
+def dereference(values: list[Any], _diagnostics: Diagnostics) -> tree.DerefExpr:
     base, caret = values
-    not_supported("E0906", "References (`^`) are", caret.span, diagnostics)
     return tree.DerefExpr(base, over(base, caret))
 
 
 @action
-def reference(values: list[Any], diagnostics: Diagnostics) -> tree.Expr:
-    not_supported("E0906", "References (`REF`) are", values[0].span, diagnostics)
-    return values[2]
+def reference(values: list[Any], _diagnostics: Diagnostics) -> tree.RefExpr:
+    word, _, operand, closing = values
+    return tree.RefExpr(operand, over(word, closing))
 
 
 @action

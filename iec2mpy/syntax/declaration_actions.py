@@ -123,9 +123,9 @@ def located_field(values: list[Any], diagnostics: Diagnostics) -> tree.StructFie
 
 
 @action
-def reference_type(values: list[Any], diagnostics: Diagnostics) -> tree.TypeSpec:
-    not_supported("E0906", "References (`REF_TO`) are", values[0].span, diagnostics)
-    return values[1]
+def reference_type(values: list[Any], _diagnostics: Diagnostics) -> tree.TypeSpec:
+    word, target = values
+    return tree.RefSpec(target, over(word, target))
 
 
 @action

@@ -9,7 +9,7 @@ from iec2mpy.source.diagnostics import Diagnostics
 from iec2mpy.source.dialects import require
 from iec2mpy.source.spans import Span
 from iec2mpy.syntax import tree
-from iec2mpy.syntax.actions import action, not_supported, over
+from iec2mpy.syntax.actions import action, over
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,8 +41,9 @@ def latch(values: list[Any], diagnostics: Diagnostics) -> tree.IfStmt:
 
 
 @action
-def assignment_attempt(values: list[Any], diagnostics: Diagnostics) -> None:
-    not_supported("E0906", "References (`?=`) are", values[1].span, diagnostics)
+def assignment_attempt(values: list[Any], _diagnostics: Diagnostics) -> tree.AttemptStmt:
+    target, _, value, _ = values
+    return tree.AttemptStmt(target, value, over(target, value))
 
 
 @action

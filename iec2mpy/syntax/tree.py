@@ -35,7 +35,7 @@ class Literal:
 
     `value`: bool; int (also based literals); float; str (decoded characters); for durations an int of
     nanoseconds; for dates, times of day and date-and-times an int of nanoseconds since midnight or 1970.
-    `kind`: "bool", "int", "real", "string", "wstring", "duration", "date", "tod", "dt".
+    `kind`: "bool", "int", "real", "string", "wstring", "duration", "date", "tod", "dt", "null".
     """
 
     kind: str
@@ -113,6 +113,14 @@ class DerefExpr:
 
 
 @dataclass(frozen=True, slots=True)
+class RefExpr:
+    """`REF(operand)`."""
+
+    operand: Expr
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Argument:
     """One actual parameter: `value` alone, `name := value`, or `name => target` (`NOT name => target`).
 
@@ -164,6 +172,7 @@ Expr = (
     | PartExpr
     | IndexExpr
     | DerefExpr
+    | RefExpr
     | CallExpr
     | UnaryExpr
     | BinaryExpr
@@ -175,6 +184,15 @@ Expr = (
 @dataclass(frozen=True, slots=True)
 class AssignStmt:
     """`target := value;`"""
+
+    target: Expr
+    value: Expr
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class AttemptStmt:
+    """`target ?= value;` (6.6.6.7)"""
 
     target: Expr
     value: Expr
@@ -276,6 +294,7 @@ class ReturnStmt:
 
 Stmt = (
     AssignStmt
+    | AttemptStmt
     | CallStmt
     | IfStmt
     | CaseStmt
@@ -352,6 +371,14 @@ class ArraySpec:
 
 
 @dataclass(frozen=True, slots=True)
+class RefSpec:
+    """`REF_TO target`."""
+
+    target: TypeSpec
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class StructField:
     names: tuple[Name, ...]
     type: TypeSpec
@@ -365,7 +392,7 @@ class StructSpec:
     span: Span
 
 
-TypeSpec = NamedTypeSpec | StringSpec | SubrangeSpec | EnumSpec | ArraySpec | StructSpec
+TypeSpec = NamedTypeSpec | StringSpec | SubrangeSpec | EnumSpec | ArraySpec | StructSpec | RefSpec
 
 
 @dataclass(frozen=True, slots=True)

@@ -77,7 +77,7 @@ _BROKEN: dict[str, tuple[n.Block, str]] = {
         "an instance of Other is not this body's own",
     ),
     "an instance of another POU, in a reference": (
-        (n.Store(n.Place(n.Deref(_variable("x", _OTHER)), (), ty.INT), _ZERO),),
+        (n.Store(n.Place(n.Deref(n.Load(_variable("x", _OTHER), ty.REFERENCE), ty.INT), (), ty.INT), _ZERO),),
         "an instance of Other is not this body's own",
     ),
 }

@@ -57,7 +57,7 @@ def _pass_arguments(
     for argument in arguments:
         mark = context.mark()
         parameter = argument.parameter
-        own = n.Place(root, (*steps, n.Field(parameter)), ty.unaliased(parameter.type))
+        own = n.Place(root, (*steps, n.Field(parameter)), n.storage_type(parameter))
         match argument:
             case t.InputArgument(_, value) if ty.value_type(parameter.type) is None:
                 place = expressions.lower_aggregate(context, value)

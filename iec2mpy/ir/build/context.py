@@ -101,7 +101,8 @@ class Context:
         for) is read from its slot."""
         assert isinstance(control, t.VariableRef), "the checker lets only plain variables count"
         variable = control.variable
-        if variable.owner is None or variable.address is not None or variable.section is Section.IN_OUT:
+        reached = variable.referred is not None or variable.address is not None or variable.section is Section.IN_OUT
+        if reached or variable.owner is None:
             yield
             return
         self.controls[variable] = current
@@ -153,13 +154,23 @@ class Context:
         return any(isinstance(s, (n.Call, n.Store, n.Copy, n.If, n.While)) for s in self._block[mark:])
 
     def settle_place(self, mark: int, place: n.Place) -> n.Place:
-        """`settle`, for the subscripts of a place."""
+        """`settle`, for the subscripts of a place, and for the reference that leads to it."""
         indices = [step.index for step in place.steps if isinstance(step, n.Element)]
-        if isinstance(place.root, n.Deref):
-            place = n.Place(n.Deref(self.settle_place(mark, place.root.reference)), place.steps, place.type)
+        root = place.root
+        if isinstance(root, n.Deref) and not is_in_out(root.reference):
+            (reference,) = self.settle(mark, [root.reference])
+            root = n.Deref(reference, root.type)
         settled = iter(self.settle(mark, indices))
         steps = tuple(n.Element(next(settled)) if isinstance(step, n.Element) else step for step in place.steps)
-        return n.Place(place.root, steps, place.type)
+        return n.Place(root, steps, place.type)
+
+
+def is_in_out(reference: n.Expr) -> bool:
+    """Whether it is the own slot of an in-out: that changes only when its POU is called."""
+    if not isinstance(reference, n.Load) or not reference.place.steps:
+        return False
+    last = reference.place.steps[-1]
+    return isinstance(last, n.Field) and last.variable.section is Section.IN_OUT
 
 
 def is_atom(value: n.Expr) -> bool:

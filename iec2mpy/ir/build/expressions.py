@@ -9,7 +9,7 @@ from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.conversions import convert, real_result
 from iec2mpy.ir.build.packed import PackedPlace, load, pack, unpack
 from iec2mpy.ir.build.parts import read_part, with_part
-from iec2mpy.ir.build.places import fixed, lower_place
+from iec2mpy.ir.build.places import fixed, lower_place, plain_place
 from iec2mpy.ir.build.stores import assign
 from iec2mpy.ir.walk import may_fault
 from iec2mpy.semantics import typed as t
@@ -37,7 +37,9 @@ def _lower(context: Context, expr: t.Expr) -> n.Expr:
             return n.Const(value, stored_type(expr.type))
         case t.VariableRef(variable) if variable in context.controls:
             return context.controls[variable]
-        case t.VariableRef() | t.DirectRef() | t.FieldRef() | t.ElementRef():
+        case t.ReferenceTo(target):
+            return n.Ref(plain_place(context, target, lower_expr))
+        case t.VariableRef() | t.DirectRef() | t.FieldRef() | t.ElementRef() | t.Dereference():
             return _load(context, lower_place(context, expr, lower_expr), stored_type(expr.type))
         case t.PartRef(base, low, part):
             return read_part(lower_expr(context, base), low, part)

@@ -6,24 +6,25 @@ from collections.abc import Callable
 
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build.checks import check_range
-from iec2mpy.ir.build.context import Context
+from iec2mpy.ir.build.context import Context, is_in_out
 from iec2mpy.ir.build.packed import PackedPlace, element_of, field_of
 from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
 from iec2mpy.syntax.tree import PouKind, Section
 
 LowerExpr = Callable[[Context, t.Expr], n.Expr]
+NULL = n.Const(0, ty.REFERENCE)
 
 
 def variable_place(variable: t.Variable) -> n.Place:
     """Where a variable lives, seen from any body that may name it."""
     own = storage_place(variable)
-    return n.Place(n.Deref(own), (), own.type) if variable.section is Section.IN_OUT else own
+    return _followed(own, variable.type) if variable.section is Section.IN_OUT else own
 
 
 def storage_place(variable: t.Variable) -> n.Place:
     """The variable's own storage: for an in-out, that of its reference."""
-    declared = ty.unaliased(variable.type)
+    declared = n.storage_type(variable)
     owner = variable.owner
     if owner is None or variable.address is not None:
         return n.Place(n.Global(variable), (), declared)
@@ -34,12 +35,24 @@ def storage_place(variable: t.Variable) -> n.Place:
 
 def field_place(base: n.Place, variable: t.Variable) -> n.Place:
     """A field of a structure, or a variable of an instance; an in-out of it is followed."""
-    place = n.Place(base.root, (*base.steps, n.Field(variable)), ty.unaliased(variable.type))
-    return n.Place(n.Deref(place), (), place.type) if variable.section is Section.IN_OUT else place
+    place = n.Place(base.root, (*base.steps, n.Field(variable)), n.storage_type(variable))
+    return _followed(place, variable.type) if variable.section is Section.IN_OUT else place
+
+
+def _followed(in_out: n.Place, declared: ty.Type) -> n.Place:
+    """What an in-out stands for."""
+    return n.Place(n.Deref(n.Load(in_out, ty.REFERENCE), declared), (), ty.unaliased(declared))
+
+
+def address_place(address: t.Address) -> n.Place:
+    """The place that an initial value refers to."""
+    steps = tuple(n.Element(n.Const(s, ty.DINT)) if isinstance(s, int) else n.Field(s) for s in address.steps)
+    whole = storage_place(address.variable)
+    return n.Place(whole.root, (*whole.steps, *steps), ty.unaliased(address.type))
 
 
 def plain_place(context: Context, expr: t.Expr, lower_expr: LowerExpr) -> n.Place:
-    """`lower_place`, for what never lies among shared bytes: an instance."""
+    """`lower_place`, for what never lies among shared bytes: an instance, and what is referred to."""
     place = lower_place(context, expr, lower_expr)
     assert isinstance(place, n.Place), f"{expr} lies among shared bytes"
     return place
@@ -68,13 +81,19 @@ def lower_place(context: Context, expr: t.Expr, lower_expr: LowerExpr) -> n.Plac
                 return element_of(context, base_place, index)
             base_place = context.settle_place(mark, base_place)
             return n.Place(base_place.root, (*base_place.steps, n.Element(index)), ty.unaliased(expr.type))
+        case t.Dereference(base):
+            reference = context.atom(lower_expr(context, base))
+            context.emit(n.Guard(n.Op("eq", reference, NULL, ty.BOOL), "NULL", context.site))
+            return n.Place(n.Deref(reference, expr.type), (), ty.unaliased(expr.type))
         case _:
             raise AssertionError(f"not a variable: {expr}")
 
 
 def fixed(context: Context, place: n.Place) -> n.Place:
     """The place with its subscripts worked out here and now, once."""
-    root = n.Deref(fixed(context, place.root.reference)) if isinstance(place.root, n.Deref) else place.root
+    root = place.root
+    if isinstance(root, n.Deref) and not is_in_out(root.reference):
+        root = n.Deref(context.kept(root.reference), root.type)
     steps = tuple(n.Element(context.kept(s.index)) if isinstance(s, n.Element) else s for s in place.steps)
     return n.Place(root, steps, place.type)
 

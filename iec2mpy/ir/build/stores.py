@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
+
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build.checks import check_range
 from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.conversions import fit_string
 from iec2mpy.ir.build.packed import PackedPlace, store
+from iec2mpy.ir.build.places import address_place, field_place
+from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
 
 
@@ -31,6 +35,35 @@ def assign_initial(context: Context, place: n.Place) -> None:
     stored = ty.value_type(place.type)
     if stored is None:
         context.emit(n.Reset(place, initial))
+        for part, address in addresses_in(place, initial):
+            context.emit(n.Store(part, n.Ref(address_place(address))))
+    elif isinstance(initial, t.Address):
+        context.emit(n.Store(place, n.Ref(address_place(initial))))
     else:
         assert isinstance(initial, (int, float, str))
         context.emit(n.Store(place, n.Const(initial, stored)))
+
+
+def addresses_in(place: n.Place, value: t.Value) -> Iterator[tuple[n.Place, t.Address]]:
+    """The references in the initial value of an array or structure that are not NULL, with their places: they depend on
+    the instance that runs."""
+    if isinstance(value, t.Address):
+        yield place, value
+    elif isinstance(place.type, ty.StructType):
+        assert isinstance(value, Mapping)
+        for key, field in place.type.fields.items():
+            yield from addresses_in(field_place(place, field), value[key])
+    elif isinstance(place.type, ty.ArrayType):
+        for number, item in enumerate(_elements(value, len(place.type.bounds))):
+            element = n.Element(n.Const(number, ty.DINT))
+            part = n.Place(place.root, (*place.steps, element), ty.unaliased(place.type.element))
+            yield from addresses_in(part, item)
+
+
+def _elements(value: t.Value, dimensions: int) -> Iterator[t.Value]:
+    if dimensions == 0:
+        yield value
+        return
+    assert isinstance(value, Sequence)
+    for item in value:
+        yield from _elements(item, dimensions - 1)
