@@ -109,8 +109,9 @@ def _function(scope: Scope, call: tree.CallExpr, function: Pou) -> FunctionCall 
 
 
 def _standard(scope: Scope, call: tree.CallExpr, name: str, expected: Type | None) -> Expr | None:
-    signature = standard_function(name)
-    if signature is not None and (scope.is_stdlib or not name.startswith("__")):
+    is_clock = name.upper() == "TIME"  # the lexer lets it be a name only where the dialect has TIME()
+    signature = standard_function("__NOW" if is_clock else name)
+    if signature is not None and (is_clock or scope.is_stdlib or not name.startswith("__")):
         return standard_calls.check(scope, call, signature, expected)
     conversion = conversion_functions.parse(name)
     if conversion is not None:

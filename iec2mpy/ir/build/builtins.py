@@ -114,7 +114,6 @@ def _shift(context: Context, name: str, arguments: list[n.Expr], result: n.Value
 
 _LOWERINGS: dict[str, Lowering] = {
     "__NOW": _now,
-    "TIME": _now,
     "ABS": _abs,
     "SEL": _sel,
     "MAX": _extreme,
