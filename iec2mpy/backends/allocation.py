@@ -42,4 +42,6 @@ def _allocates(expr: n.Expr, target: Target) -> bool:
 
 def _is_large(expr: n.Expr) -> bool:
     """Whether the value may not fit the 31 bits of a small integer."""
-    return not isinstance(expr, n.Const) and isinstance(expr.type, ty.ElementaryType) and expr.type.bits == 32
+    if isinstance(expr, n.Const) or not isinstance(expr.type, ty.ElementaryType):
+        return False
+    return expr.type.bits == 32 and not expr.type.in_objects

@@ -83,7 +83,7 @@ class _Generator:
         size = self.layout.size
         if size.v > MAX_SLOTS or size.o > MAX_OBJECTS:
             raise TooLarge(
-                f"the program needs {size.v} slots of V and {size.o} of O; there are {MAX_SLOTS} and {MAX_OBJECTS}"
+                f"The program needs {size.v} slots of V and {size.o} of O; there are {MAX_SLOTS} and {MAX_OBJECTS}."
             )
         content = "\n".join([*self._memory(), *bodies, *reset, *tasks, *self._tables()])
         digest = hashlib.sha256(content.encode()).hexdigest()[:16]
@@ -139,8 +139,8 @@ class _Generator:
             rows.append(f'    ("{task.name}", {task.interval}, {task.priority}, task_{task.name}),')
         untimed = [r for r in self._runs() if r[0].task is None]
         if untimed:
-            lines += self._run_function("task_none", untimed)
-        return [*lines, "", "TASKS = (", *rows, ")", f"UNTIMED = {'task_none' if untimed else 'None'}"]
+            lines += self._run_function("untimed", untimed)
+        return [*lines, "", "TASKS = (", *rows, ")", f"UNTIMED = {'untimed' if untimed else 'None'}"]
 
     def _runs(self) -> list[tuple[n.ProgramRun, Size]]:
         return list(zip(self.module.programs, self.layout.instances, strict=True))

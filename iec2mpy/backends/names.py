@@ -16,6 +16,9 @@ _TAKEN = frozenset(
         "float",
         "int",
         "uint",
+        "ptr",
+        "ptr8",
+        "ptr16",
         "ptr32",
         "bool",
         "object",
@@ -23,8 +26,11 @@ _TAKEN = frozenset(
         "fill",
         "put",
         "loop_check",
+        "untimed",
     }
 )
+_OWN = re.compile(r"[txu]\d+|task_\w+|_.*")
+"""Locals, the functions of tasks, and constants."""
 
 
 class SlotNames:
@@ -66,13 +72,15 @@ class SlotNames:
 
 
 def function_names(pous: list[Pou], runtime: set[str]) -> dict[Pou, str]:
-    """A Python name for each body: the POU's own, unless Python or the runtime has it."""
+    """A Python name for each body: the POU's own, unless Python, the runtime or generated code has it."""
     taken = _TAKEN | runtime
     names: dict[Pou, str] = {}
     for pou in pous:
         name = pou.name.replace(".", "_")
-        while name in taken or keyword.iskeyword(name) or re.fullmatch(r"[tx]\d+|task_\w+|_.*", name):
-            name = name.lstrip("_") + "_"
+        if name in taken or keyword.iskeyword(name) or _OWN.fullmatch(name):
+            name = f"pou_{name}"
+        while name in taken:
+            name += "_2"
         names[pou] = name
         taken |= {name}
     return names

@@ -47,7 +47,7 @@ def generate(module: ir.Module, target: Target) -> GeneratedProgram:
     try:
         return backends.generate(module, target)
     except TooLarge as error:
-        raise CompileError([Diagnostic("E0846", str(error).capitalize())]) from None
+        raise CompileError([Diagnostic("E0846", str(error))]) from None
 
 
 def compile_files(

@@ -1,4 +1,4 @@
-"""Programs whose parts work together: order of evaluation, copies, instances, loops at their limits; on every engine."""
+"""Programs whose parts work together: order of evaluation, copies, instances, loops at their limits, on all engines."""
 
 from __future__ import annotations
 
@@ -103,7 +103,10 @@ FUNCTION_BLOCK B VAR_INPUT s : STRING[3]; END_VAR VAR_OUTPUT q : STRING[10]; n :
 n := LEN(s); q := CONCAT(s, '123456789');
 END_FUNCTION_BLOCK
 PROGRAM main
-VAR b : B; a : ARRAY[0..1] OF STRING[3]; s : S; t : STRING := 'abcdef'; r : STRING; o : STRING[1]; y : STRING[2]; END_VAR
+VAR
+  b : B; a : ARRAY[0..1] OF STRING[3]; s : S;
+  t : STRING := 'abcdef'; r : STRING; o : STRING[1]; y : STRING[2];
+END_VAR
 a[1] := t;
 s.f := t;
 r := F(s := t, o => o);
