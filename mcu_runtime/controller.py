@@ -4,8 +4,7 @@ Times are kept as what is left until a task is due, in microseconds: such number
 intervals below 17 minutes) nothing is allocated on a 32-bit board.
 """
 
-from mcu_runtime.faults import Fault, refill
-from mcu_runtime.ports import forget_traceback
+from mcu_runtime.faults import forget_tracebacks, kind_of, refill
 from mcu_runtime.slots import NOW, SITE
 
 DEFAULT_PERIOD_US = 10_000
@@ -257,9 +256,9 @@ class Controller:
 
     def _fail(self, error, otherwise):
         """Stop for a fault, or for an exception that is none: lack of memory, or of the kind `otherwise`."""
-        if isinstance(error, Fault):
-            kind = error.kind
-            forget_traceback(error)
+        kind = kind_of(error)
+        if kind is not None:
+            forget_tracebacks()
         elif isinstance(error, MemoryError):
             kind = "memory"
         else:

@@ -1,4 +1,9 @@
-"""Faults: the run-time errors that stop the controller. Each is made once, so that raising one allocates nothing."""
+"""Faults: the run-time errors that stop the controller, or that a call with ENO catches.
+
+Each is made once, so that raising one allocates nothing. They are objects of built-in classes: MicroPython adds to the
+traceback of an exception at each function that it passes, and only those classes let go of it (`__traceback__ = None`).
+Nothing else that runs on a board raises an AssertionError, so `except Catchable` catches faults and no more.
+"""
 
 from mcu_runtime.ports import const, ticks_diff, ticks_us
 from mcu_runtime.slots import LOOP as _LOOP_SLOT
@@ -9,23 +14,32 @@ _REAL_PASSES = const(1_000)
 _LIMIT_US = const(500_000)
 
 
-class Fault(Exception):
-    """`kind` is the word that users see."""
+Catchable = AssertionError
 
-    def __init__(self, kind):
-        super().__init__(kind)
-        self.kind = kind
-
-
-ZERO = Fault("zero")
-INDEX = Fault("index")
-RANGE = Fault("range")
-NULL = Fault("NULL")
-LOOP = Fault("loop")
-RECURSION = Fault("recursion")
+ZERO = Catchable("zero")
+INDEX = Catchable("index")
+RANGE = Catchable("range")
+NULL = Catchable("NULL")
+RECURSION = Catchable("recursion")
+LOOP = RuntimeError("loop")  # ENO does not catch it: the scan has already taken too long
+_FAULTS = (ZERO, INDEX, RANGE, NULL, RECURSION, LOOP)
 
 _real = False
 _started = 0
+
+
+def kind_of(error):
+    """The word that users see for a fault; None for what is none."""
+    for fault in _FAULTS:
+        if error is fault:
+            return error.args[0]
+    return None
+
+
+def forget_tracebacks():
+    """After one was caught: what it passed through must not stay with it."""
+    for fault in _FAULTS:
+        fault.__traceback__ = None
 
 
 def refill(V, real):

@@ -23,9 +23,6 @@ if hasattr(time, "ticks_us"):
     sleep_us = time.sleep_us
     collect = gc.collect
 
-    def forget_traceback(error):
-        pass
-
 else:
 
     def ticks_us():
@@ -39,7 +36,3 @@ else:
 
     def collect():
         """CPython frees what is not in a cycle at once."""
-
-    def forget_traceback(error):
-        """A fault is one object for the life of the process: what it passed through must not stay with it."""
-        error.__traceback__ = None

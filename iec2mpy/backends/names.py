@@ -27,6 +27,8 @@ _TAKEN = frozenset(
         "put",
         "loop_check",
         "untimed",
+        "Catchable",
+        "forget_tracebacks",
     }
 )
 _OWN = re.compile(r"[txu]\d+|task_\w+|_.*")

@@ -9,7 +9,7 @@ from iec2mpy.ir import nodes as n
 from iec2mpy.ir.walk import expressions, set_local, statements
 
 MAX_STATEMENTS = 250
-_LINES: dict[type, int] = {n.Line: 0, n.Guard: 3, n.Tick: 4, n.Copy: 6, n.Compare: 8}
+_LINES: dict[type, int] = {n.Line: 0, n.Guard: 3, n.Tick: 4, n.Copy: 6, n.Compare: 8, n.Try: 3}
 """Statements of Python for one of the IR, where that is not 1."""
 
 
@@ -57,6 +57,8 @@ class _Splitter:
                 if _count(then) + _count(otherwise) >= MAX_STATEMENTS:
                     otherwise = self._outlined(otherwise)
                 return n.If(condition, then, otherwise)
+            case n.Try(inner):
+                return n.Try(self.fitted(inner))
             case n.While(condition, inner):
                 return n.While(condition, self.fitted(inner))
             case _:
@@ -131,6 +133,8 @@ def _leaves(block: n.Block, in_loop: bool) -> bool:
             case n.Break() | n.Next() if not in_loop:
                 return True
             case n.If(_, then, otherwise) if _leaves(then, in_loop) or _leaves(otherwise, in_loop):
+                return True
+            case n.Try(inner) if _leaves(inner, in_loop):
                 return True
             case n.While(_, inner) if _leaves(inner, in_loop=True):
                 return True

@@ -87,6 +87,8 @@ class StatementWriter:
                 self._tick(site)
             case n.If():
                 self._if(statement)
+            case n.Try(body):
+                self._try(body)
             case n.While(condition, body):
                 self._write(f"while {self.expressions.condition(condition).code}:")
                 self._inner(body)
@@ -220,6 +222,13 @@ class StatementWriter:
         self._write(f"if v[{loop}] == 0:")
         self._write(f"    {self._note(site)}")
         self._write(f"    {self.expressions.need('faults', 'loop_check')}(V)")
+
+    def _try(self, body: n.Block) -> None:
+        """What a fault has passed through is forgotten: its object would grow at each of them."""
+        self._write("try:")
+        self._inner(body)
+        self._write(f"except {self.expressions.need('faults', 'Catchable')}:")
+        self._write(f"    {self.expressions.need('faults', 'forget_tracebacks')}()")
 
     def _if(self, statement: n.If) -> None:
         condition, then, otherwise = statement.condition, statement.then, statement.otherwise

@@ -302,6 +302,14 @@ class If:
 
 
 @dataclass(frozen=True, slots=True)
+class Try:
+    """Runs the body as far as the first fault in it, however deep that is raised; then what follows. `loop` is not
+    caught. No jump leads out of the body."""
+
+    body: Block
+
+
+@dataclass(frozen=True, slots=True)
 class While:
     """Runs the body as long as the condition holds; `Const` TRUE for a loop that ends by `Break`."""
 
@@ -338,6 +346,7 @@ Stmt = (
     | Mark
     | Tick
     | If
+    | Try
     | While
     | Break
     | Next

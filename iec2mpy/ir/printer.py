@@ -55,6 +55,9 @@ def _statement(statement: n.Stmt, indent: str) -> Iterator[str]:
             if otherwise:
                 yield f"{indent}else"
                 yield from _block(otherwise, indent + "  ")
+        case n.Try(body):
+            yield f"{indent}try"
+            yield from _block(body, indent + "  ")
         case n.While(condition, body):
             yield f"{indent}while {_expr(condition)}"
             yield from _block(body, indent + "  ")

@@ -70,21 +70,25 @@ def _locals(block: n.Block, known: set[int], count: int) -> Iterator[str]:
                 yield from _locals(then, first, count)
                 yield from _locals(otherwise, second, count)
                 known |= first & second
-            case n.While(_, body):
+            case n.Try(body) | n.While(_, body):
                 yield from _locals(body, set(known), count)
             case _:
                 pass
 
 
-def _jumps(block: n.Block, in_loop: bool) -> Iterator[str]:
+def _jumps(block: n.Block, in_loop: bool, in_try: bool = False) -> Iterator[str]:
     for statement in block:
         match statement:
             case n.Break() | n.Next() if not in_loop:
                 yield "a jump out of a loop stands in none"
             case n.If(_, then, otherwise):
-                yield from _jumps(then, in_loop)
-                yield from _jumps(otherwise, in_loop)
+                yield from _jumps(then, in_loop, in_try)
+                yield from _jumps(otherwise, in_loop, in_try)
+            case n.Return() if in_try:
+                yield "a jump leads out of what is tried"
+            case n.Try(body):
+                yield from _jumps(body, in_loop=False, in_try=True)
             case n.While(_, body):
-                yield from _jumps(body, True)
+                yield from _jumps(body, True, in_try)
             case _:
                 pass

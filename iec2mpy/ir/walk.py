@@ -104,6 +104,8 @@ def map_block(block: n.Block, rewrite: Callable[[n.Stmt], n.Block]) -> n.Block:
         match statement:
             case n.If(condition, then, otherwise):
                 statement = n.If(condition, map_block(then, rewrite), map_block(otherwise, rewrite))
+            case n.Try(body):
+                statement = n.Try(map_block(body, rewrite))
             case n.While(condition, body):
                 statement = n.While(condition, map_block(body, rewrite))
             case _:
@@ -125,7 +127,7 @@ def statements(block: n.Block) -> Iterator[n.Stmt]:
             case n.If(_, then, otherwise):
                 yield from statements(then)
                 yield from statements(otherwise)
-            case n.While(_, body):
+            case n.Try(body) | n.While(_, body):
                 yield from statements(body)
             case _:
                 pass

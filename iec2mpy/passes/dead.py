@@ -32,6 +32,8 @@ def _reduce(statement: n.Stmt) -> n.Block:
             if not _has_code(then) and not _has_code(otherwise) and not may_fault(condition):
                 return ()
             return (n.If(condition, then, otherwise),)
+        case n.Try(body):
+            return (n.Try(_cut(body)),) if _may_be_caught(body) else _cut(body)
         case n.While(n.Const() as condition) if not condition.value:
             return ()
         case n.While(condition, body):
@@ -55,6 +57,13 @@ def _is_unread(statement: n.Stmt, reads: Counter[int]) -> bool:
     if local is None or reads[local.number]:
         return False
     return not (isinstance(statement, n.SetLocal) and may_fault(statement.value))
+
+
+def _may_be_caught(block: n.Block) -> bool:
+    """Whether a fault may be raised in the block that `Try` catches."""
+    return any(
+        isinstance(s, (n.Call, n.Guard)) or any(may_fault(expr) for expr in expressions(s)) for s in statements(block)
+    )
 
 
 def _has_code(block: n.Block) -> bool:

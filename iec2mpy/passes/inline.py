@@ -46,6 +46,8 @@ def _inline_calls(body: n.Body, done: dict[Pou, n.Body], calls: Counter[Pou]) ->
             match statement:
                 case n.If(condition, then, otherwise):
                     result.append(n.If(condition, in_block(then), in_block(otherwise)))
+                case n.Try(inner):
+                    result.append(n.Try(in_block(inner)))
                 case n.While(condition, inner):
                     result.append(n.While(condition, in_block(inner)))
                 case n.Call(pou) if (code := _code_of(done[pou], statement, calls, LARGEST - size)) is not None:

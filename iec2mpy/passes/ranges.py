@@ -104,6 +104,11 @@ def _statement(statement: n.Stmt, facts: _Facts) -> n.Stmt:
             _assume(condition, False, facts)
         case n.If(condition, then, otherwise):
             return _branches(condition, then, otherwise, facts)
+        case n.Try(body):
+            new_body = _block(body, facts.copy())
+            # how far it comes is unknown
+            _forget_what_changes(body, facts)
+            return n.Try(new_body)
         case n.While(condition, body):
             inside = facts.copy()
             _assume(condition, True, inside)
@@ -130,7 +135,8 @@ def _leaves(block: n.Block) -> bool:
 
 
 def _forget_what_changes(body: n.Block, facts: _Facts) -> None:
-    """What a loop changes is unknown at the start of a pass, and after the loop."""
+    """What a loop changes is unknown at the start of a pass, and after the loop; and after what may have been broken
+    off."""
     for statement in statements(body):
         match statement:
             case n.SetLocal(local) | n.Compare(local):

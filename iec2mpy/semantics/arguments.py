@@ -61,7 +61,7 @@ def report_mixed(scope: Scope, call: tree.CallExpr) -> None:
 
 def _by_position(scope: Scope, call: tree.CallExpr, callee: Pou) -> list[ArgumentMatch] | None:
     """A non-formal call gives all parameters in their order (6.6.1.4.2); none at all is an incomplete formal call."""
-    given, parameters = call.arguments, callee.parameters
+    given, parameters = call.arguments, [p for p in callee.parameters if p.key not in ("en", "eno")]
     if len(given) > len(parameters):
         scope.diagnostics.add(
             "E0403",
@@ -166,7 +166,7 @@ def pass_arguments(
 def _pass(scope: Scope, match: ArgumentMatch, instance: Expr | None) -> ActualParameter | None:
     parameter, value = match.parameter, match.value
     if parameter.section is Section.OUTPUT:
-        return _output(scope, match, instance)
+        return output_argument(scope, match, instance)
     if parameter.section is Section.IN_OUT:
         target = reference(scope, value, Use.IN_OUT)
         if target is None or not same_or_report(scope, target, parameter.type, parameter.name):
@@ -182,7 +182,8 @@ def _pass(scope: Scope, match: ArgumentMatch, instance: Expr | None) -> ActualPa
 _NAMING = (tree.NameExpr, tree.DirectVariable, tree.MemberExpr, tree.IndexExpr, tree.PartExpr, tree.DerefExpr)
 
 
-def _output(scope: Scope, match: ArgumentMatch, instance: Expr | None) -> OutputArgument | None:
+def output_argument(scope: Scope, match: ArgumentMatch, instance: Expr | None) -> OutputArgument | None:
+    """Where an output goes, with what is assigned there; `instance` is None for a function."""
     parameter, span = match.parameter, match.value.span
     if not isinstance(match.value, _NAMING):
         scope.diagnostics.add(

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from iec2mpy.semantics import conversion_functions, declarations, standard_calls
 from iec2mpy.semantics.arguments import ArgumentMatch, match_arguments, missing_in_outs, pass_arguments
+from iec2mpy.semantics.control import Keep, keeper, standard_call, take_control
 from iec2mpy.semantics.references import Use, reference
 from iec2mpy.semantics.scope import UNKNOWN, Scope
 from iec2mpy.semantics.signatures import function_names, is_planned_function, standard_function
-from iec2mpy.semantics.typed import CallBlock, CallFunction, Expr, FunctionCall, Pou, Stmt
+from iec2mpy.semantics.typed import CallBlock, CallFunction, Expr, FunctionCall, Pou, StandardCall, Stmt, Variable
 from iec2mpy.semantics.types import NO_RESULT, BlockType, Type, unaliased
 from iec2mpy.source.suggest import suggest
 from iec2mpy.syntax import tree
@@ -21,7 +22,7 @@ def in_expression(scope: Scope, call: tree.CallExpr, expected: Type | None) -> E
         function = _user_function(scope, call.callee)
         if function is not None:
             return _function_value(scope, call, function)
-        return _standard(scope, call, call.callee.name, expected)
+        return _standard(scope, call, expected)
     instance = reference(scope, call.callee, Use.CALL)
     if instance is not None and _is_instance(scope, call.callee, instance):
         scope.diagnostics.add(
@@ -41,7 +42,10 @@ def as_statement(scope: Scope, call: tree.CallExpr) -> Stmt | None:
         if function is not None:
             checked = _function(scope, call, function)
             return checked and CallFunction(checked, call.span)
-        if _standard(scope, call, call.callee.name, None) is not None:
+        value = _standard(scope, call, None)
+        if isinstance(value, StandardCall) and value.control.eno is not None:
+            return CallFunction(value, call.span)
+        if value is not None:
             scope.diagnostics.add("W0603", "This call does nothing: its result is not used.", call.span)
         return None
     instance = reference(scope, call.callee, Use.CALL)
@@ -98,6 +102,10 @@ def _function_value(scope: Scope, call: tree.CallExpr, function: Pou) -> Expr | 
 
 def _function(scope: Scope, call: tree.CallExpr, function: Pou) -> FunctionCall | None:
     scope.calls.setdefault(function, call.span)
+    taken = take_control(scope, call)
+    if taken is None:
+        return None
+    call, control = taken
     matched = match_arguments(scope, call, function)
     if matched is None or missing_in_outs(scope, call, function, matched):
         return None
@@ -105,17 +113,31 @@ def _function(scope: Scope, call: tree.CallExpr, function: Pou) -> FunctionCall 
     t = unaliased(function.result.type) if function.result is not None else NO_RESULT
     if arguments is None or t is UNKNOWN:
         return None
-    return FunctionCall(function, arguments, t, call.span)
+    return FunctionCall(function, arguments, t, call.span, control)
 
 
-def _standard(scope: Scope, call: tree.CallExpr, name: str, expected: Type | None) -> Expr | None:
+def _standard(scope: Scope, call: tree.CallExpr, expected: Type | None) -> Expr | None:
+    taken = take_control(scope, call)
+    if taken is None:
+        return None
+    call, control = taken
+    if control is None:
+        return _standard_value(scope, call, expected, lambda argument: argument)
+    arguments: list[tuple[Variable, Expr]] = []
+    checked = _standard_value(scope, call, expected, keeper(arguments))
+    return checked and standard_call(scope, checked, arguments, control, expected)
+
+
+def _standard_value(scope: Scope, call: tree.CallExpr, expected: Type | None, keep: Keep) -> Expr | None:
+    assert isinstance(call.callee, tree.NameExpr)
+    name = call.callee.name
     is_clock = name.upper() == "TIME"  # the lexer lets it be a name only where the dialect has TIME()
     signature = standard_function("__NOW" if is_clock else name)
     if signature is not None and (is_clock or scope.is_stdlib or not name.startswith("__")):
-        return standard_calls.check(scope, call, signature, expected)
+        return standard_calls.check(scope, call, signature, expected, keep)
     conversion = conversion_functions.parse(name)
     if conversion is not None:
-        return conversion_functions.check(scope, call, conversion, expected)
+        return conversion_functions.check(scope, call, conversion, expected, keep)
     _unknown(scope, call.callee, name)
     return None
 
@@ -143,8 +165,12 @@ def _block(scope: Scope, call: tree.CallExpr, instance: Expr, t: BlockType) -> C
     block = t.pou
     declarations.declare_pou(scope.world, block.name.casefold())
     scope.calls.setdefault(block, call.span)
+    taken = take_control(scope, call)
+    if taken is None:
+        return None
+    call, control = taken
     matched: list[ArgumentMatch] | None = match_arguments(scope, call, block)
     if matched is None or missing_in_outs(scope, call, block, matched):
         return None
     arguments = pass_arguments(scope, matched, instance)
-    return None if arguments is None else CallBlock(instance, block, arguments, call.span)
+    return None if arguments is None else CallBlock(instance, block, arguments, call.span, control)

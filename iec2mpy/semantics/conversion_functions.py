@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from iec2mpy.semantics import arithmetic, expressions, loose, operators, standard_calls
@@ -54,8 +55,10 @@ def is_planned(name: str) -> bool:
     return match is not None and match[3] in known and (match[1] is None or match[1] in known)
 
 
-def check(scope: Scope, call: tree.CallExpr, conversion: Conversion, expected: Type | None) -> Expr | None:
-    """The checked call of a conversion."""
+def check(
+    scope: Scope, call: tree.CallExpr, conversion: Conversion, expected: Type | None, keep: Callable[[Expr], Expr]
+) -> Expr | None:
+    """The checked call of a conversion; `keep` is applied to its argument."""
     given = standard_calls.match(scope, call, Signature(conversion.name, (Parameter("IN", "ANY"),), "ANY"))
     if given is None or given[0] is None:
         return None
@@ -67,7 +70,7 @@ def check(scope: Scope, call: tree.CallExpr, conversion: Conversion, expected: T
         value = coerce(scope, value, source, "E0312", f"The input of {conversion.name} is {source}")
     else:
         value = typed_literal(scope, value)
-    return value and _converted(scope, call, conversion, value, _target(conversion, expected))
+    return value and _converted(scope, call, conversion, keep(value), _target(conversion, expected))
 
 
 def _target(conversion: Conversion, expected: Type | None) -> ElementaryType | StringType:

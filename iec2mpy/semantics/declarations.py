@@ -181,6 +181,7 @@ def _declare(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tree
         variable.owner = pou
         pou.variables[name.key] = variable
         scope.locals[name.key] = variable
+        _check_control(scope, variable)
         if declaration.edge is not None and may_have_edge:
             _add_edge(pou, variable, declaration.edge)
         if t is not UNKNOWN and isinstance(unaliased(t), BlockType):
@@ -210,6 +211,23 @@ def _initial(scope: Scope, section: tree.VarSection, declaration: tree.VarDecl, 
     if section.section in (Section.EXTERNAL, Section.IN_OUT):
         return default_value(t) if t is not UNKNOWN else 0
     return initial_value(scope, t, declaration.initial)
+
+
+# ------------------------------------------------------------------------------------------------- EN and ENO
+
+_CONTROLS = {"en": ("EN", Section.INPUT), "eno": ("ENO", Section.OUTPUT)}
+
+
+def _check_control(scope: Scope, variable: Variable) -> None:
+    """EN and ENO mean one thing in every call, so a POU can declare them in one way only (6.6.1.5)."""
+    parameters = (Section.INPUT, Section.OUTPUT, Section.IN_OUT)
+    if variable.key not in _CONTROLS or variable.section not in parameters or variable.type is UNKNOWN:
+        return
+    name, section = _CONTROLS[variable.key]
+    if variable.section is not section or variable.type is not BOOL:
+        message = f"{name} is declared in {section.value}, as BOOL, or not at all."
+        hint = "Every function and block has EN and ENO. Give another variable another name."
+        scope.diagnostics.add("E0713", message, variable.span, hint)
 
 
 # ------------------------------------------------------------------------------------------------------ edges

@@ -125,6 +125,12 @@ def _may_use(scope: Scope, variable: Variable, use: Use, span: Span) -> bool:
             [_declared(variable)],
         )
         return False
+    if use in (Use.REFER, Use.IN_OUT) and scope.pou is not None and variable is scope.pou.eno:
+        # 6.6.1.5, rules 7 and 8: only the body itself sets it
+        message = f"`{variable.name}` belongs to the call: it cannot be {use.value}."
+        hint = "Copy it to a variable of VAR, and use that."
+        add(_REFUSALS[use], message, span, hint, [_declared(variable)])
+        return False
     if variable.section is Section.INPUT and not accepts(span.file, "written-input"):
         code = _REFUSALS.get(use, "E0604")
         hint = (

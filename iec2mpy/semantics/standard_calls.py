@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 
 from iec2mpy.semantics import arithmetic, expressions, loose, operators
@@ -35,14 +35,18 @@ _SELECTIONS = frozenset(("SEL", "MAX", "MIN", "LIMIT", "MUX"))
 """Functions whose result is one of their arguments."""
 
 
-def check(scope: Scope, call: tree.CallExpr, signature: Signature, expected: Type | None) -> Expr | None:
-    """The checked call; `expected` gives literals a type where all arguments are literals."""
+def check(
+    scope: Scope, call: tree.CallExpr, signature: Signature, expected: Type | None, keep: Callable[[Expr], Expr]
+) -> Expr | None:
+    """The checked call; `expected` gives literals a type where all arguments are literals. `keep` is applied to each
+    argument."""
     given = match(scope, call, signature)
     if given is None:
         return None
     values = _checked(scope, given, signature, expected)
     if values is None:
         return None
+    values = [value and keep(value) for value in values]
     if signature.operator is not None:
         return _operator(scope, call, signature, values, expected)
     return _builtin(scope, call, signature, values, expected)

@@ -104,6 +104,18 @@ class Pou:
         return [v for v in self.variables.values() if v.section is Section.INPUT]
 
     @property
+    def en(self) -> Variable | None:
+        """The input EN, where the POU declares it itself (6.6.1.5)."""
+        found = self.variables.get("en")
+        return found if found is not None and found.section is Section.INPUT else None
+
+    @property
+    def eno(self) -> Variable | None:
+        """The output ENO, where the POU declares it itself (6.6.1.5)."""
+        found = self.variables.get("eno")
+        return found if found is not None and found.section is Section.OUTPUT else None
+
+    @property
     def parameters(self) -> list[Variable]:
         """Inputs, outputs and in-outs, in order of declaration: what a call may name."""
         return [v for v in self.variables.values() if v.section in (Section.INPUT, Section.OUTPUT, Section.IN_OUT)]
@@ -310,6 +322,15 @@ ActualParameter = InputArgument | InOutArgument | OutputArgument
 
 
 @dataclass(frozen=True, slots=True)
+class Control:
+    """EN and ENO of a call (6.6.1.5). `enable` is None where EN is not given. `eno` is None where ENO is not taken:
+    then a fault goes on outward. The parameter of `eno` is a variable of this call only."""
+
+    enable: Expr | None
+    eno: OutputArgument | None
+
+
+@dataclass(frozen=True, slots=True)
 class FunctionCall:
     """A call of a user's function. `arguments` in the order written; inputs left out take their initial values.
 
@@ -318,6 +339,19 @@ class FunctionCall:
 
     function: Pou
     arguments: tuple[ActualParameter, ...]
+    type: Type
+    span: Span
+    control: Control | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class StandardCall:
+    """A standard function that is called with EN or ENO. `call` is what it does (a Binary, a BuiltinCall, …), in which
+    the variables of `arguments` stand for values that are worked out before it."""
+
+    call: Expr
+    arguments: tuple[tuple[Variable, Expr], ...]
+    control: Control
     type: Type
     span: Span
 
@@ -337,6 +371,7 @@ Expr = (
     | Binary
     | BuiltinCall
     | FunctionCall
+    | StandardCall
 )
 
 # ------------------------------------------------------------------------------------------- statements
@@ -355,7 +390,7 @@ class Assign:
 class CallFunction:
     """A function called for what it does."""
 
-    call: FunctionCall
+    call: FunctionCall | StandardCall
     span: Span
 
 
@@ -367,6 +402,7 @@ class CallBlock:
     block: Pou
     arguments: tuple[ActualParameter, ...]
     span: Span
+    control: Control | None = None
 
 
 @dataclass(frozen=True, slots=True)

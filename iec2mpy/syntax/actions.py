@@ -261,28 +261,20 @@ def positional_argument(values: list[Any], _diagnostics: Diagnostics) -> tree.Ar
     return tree.Argument(None, values[0], False, False, values[0].span)
 
 
-def _check_enable(token: Token, diagnostics: Diagnostics) -> None:
-    if token.text.upper() in ("EN", "ENO"):
-        not_supported("E0912", f"`{token.text}` (6.6.1.6) is", token.span, diagnostics)
-
-
 @action
-def input_argument(values: list[Any], diagnostics: Diagnostics) -> tree.Argument:
+def input_argument(values: list[Any], _diagnostics: Diagnostics) -> tree.Argument:
     """`name := value`, or `name :=` with nothing behind it (6.6.1.4.2: it is as if the parameter were not given)."""
-    _check_enable(values[0], diagnostics)
     value = values[2] if len(values) == 3 else None
     return tree.Argument(name_of(values[0]), value, False, False, over(values[0], values[-1]))
 
 
 @action
-def output_argument(values: list[Any], diagnostics: Diagnostics) -> tree.Argument:
-    _check_enable(values[0], diagnostics)
+def output_argument(values: list[Any], _diagnostics: Diagnostics) -> tree.Argument:
     value = values[2] if len(values) == 3 else None
     return tree.Argument(name_of(values[0]), value, True, False, over(values[0], values[-1]))
 
 
 @action
-def negated_output(values: list[Any], diagnostics: Diagnostics) -> tree.Argument:
+def negated_output(values: list[Any], _diagnostics: Diagnostics) -> tree.Argument:
     word, token, _, value = values
-    _check_enable(token, diagnostics)
     return tree.Argument(name_of(token), value, True, True, over(word, value))

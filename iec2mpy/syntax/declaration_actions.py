@@ -224,11 +224,6 @@ def section(values: list[Any], diagnostics: Diagnostics) -> tree.VarSection:
             not_supported("E0904", f"Access specifiers (`{token.text}`) are", token.span, diagnostics)
         elif token.type != "CONSTANT":
             retention = tree.Retention(token.type)
-    if kind in (tree.Section.INPUT, tree.Section.OUTPUT):
-        for declared in (
-            declared for variable in variables for declared in variable.names if declared.key in ("en", "eno")
-        ):
-            not_supported("E0912", f"`{declared.text}` (6.6.1.6) is", declared.span, diagnostics)
     constant = any(token.type == "CONSTANT" for token in qualifiers)
     if kind is tree.Section.INPUT and accepts(word.file, "constant-input"):
         constant = False  # a constant only for whoever calls it in a drawing: its value comes from outside

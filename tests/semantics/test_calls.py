@@ -17,6 +17,7 @@ from iec2mpy.semantics.typed import (
     InOutArgument,
     InputArgument,
     OutputArgument,
+    StandardCall,
     Unary,
     VariableRef,
 )
@@ -251,3 +252,47 @@ def test_a_user_function_hides_a_standard_one() -> None:
     assign = application.pous[1].body[0]
     assert isinstance(assign, Assign)
     assert isinstance(assign.value, FunctionCall)
+
+
+@pytest.mark.parametrize(
+    ("call", "code"),
+    [
+        ("y := ADD(EN := x, IN1 := 1, IN2 := x);", "E0312"),
+        ("y := ADD(EN => b, IN1 := 1, IN2 := x);", "E0408"),
+        ("y := ADD(ENO := b, IN1 := 1, IN2 := x);", "E0407"),
+        ("y := ADD(ENO => b, ENO => c, IN1 := 1, IN2 := x);", "E0402"),
+        ("y := ADD(EN := b, EN := b, IN1 := 1, IN2 := x);", "E0402"),
+        ("y := ADD(1, x, ENO => b);", "E0412"),
+        ("y := blend(1, x, b, EN := b);", "E0412"),
+        ("y := ADD(IN1 := 1, IN2 := x, ENO => y);", "E0312"),
+        ("y := ADD(IN1 := 1, ENO => b);", "E0404"),
+    ],
+)
+def test_en_and_eno_of_the_wrong_kind(call: str, code: str) -> None:
+    text = FUNCTIONS + program("x, y : INT; b, c : BOOL;", call)
+    assert codes(text) == [(code, AFTER + 3)]
+
+
+@pytest.mark.parametrize(
+    "declaration",
+    ["VAR_INPUT EN : INT; END_VAR", "VAR_OUTPUT en : BOOL; END_VAR", "VAR_INPUT\nENO : BOOL; END_VAR"],
+)
+def test_en_and_eno_are_declared_in_one_way(declaration: str) -> None:
+    text = f"FUNCTION_BLOCK a\n{declaration}\nEND_FUNCTION_BLOCK"
+    assert codes(text) == [("E0713", 2 + declaration.count("\n"))]
+
+
+def test_declared_en_and_eno_take_no_position() -> None:
+    text = """FUNCTION f : INT
+VAR_INPUT EN : BOOL := TRUE; a : INT; END_VAR
+VAR_OUTPUT ENO : BOOL; END_VAR
+f := a;
+END_FUNCTION
+"""
+    assert codes(text + program("x : INT;", "x := f(3);")) == []
+
+
+def test_a_standard_function_for_its_eno_alone() -> None:
+    call = body_of("x : INT; b : BOOL;", "DIV(IN1 := 1, IN2 := x, ENO => b);")[0]
+    assert isinstance(call, CallFunction) and isinstance(call.call, StandardCall)
+    assert codes(program("x : INT; b : BOOL;", "DIV(EN := b, IN1 := 1, IN2 := x);")) == [("W0603", 3)]

@@ -37,8 +37,6 @@ def _body(text: str) -> str:
          [("E0908", 3)]),
         ("TYPE S : STRUCT OVERLAP a AT %B0 : INT; END_STRUCT; END_TYPE", [("E0910", 1), ("E0910", 1)]),
         (_body("VAR_IN_OUT a : ARRAY[*, *] OF INT; END_VAR"), [("E0911", 2), ("E0911", 2)]),
-        ("FUNCTION f\nVAR_INPUT EN : BOOL; END_VAR\nEND_FUNCTION", [("E0912", 2)]),
-        (_body("f(EN := a, ENO => b);"), [("E0912", 2), ("E0912", 2)]),
         ("CONFIGURATION c\nPROGRAM p : m(b WITH t);\nEND_CONFIGURATION", [("E0913", 2)]),
     ],
 )  # fmt: skip

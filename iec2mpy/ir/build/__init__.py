@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from iec2mpy.ir import nodes as n
-from iec2mpy.ir.build.context import Context
+from iec2mpy.ir.build.context import TRUE, Context
 from iec2mpy.ir.build.edges import find_edge
 from iec2mpy.ir.build.places import storage_place
 from iec2mpy.ir.build.statements import lower_block
@@ -42,6 +42,12 @@ def _build_body(pou: t.Pou) -> n.Body:
     context = Context(pou)
     for variable in _fresh_variables(pou):
         assign_initial(context, storage_place(variable))
+    if pou.en is not None and pou.kind is not PouKind.PROGRAM:
+        # 6.6.1.5, rules 1 and 5: the body runs only where the call has not given FALSE
+        context.values[pou.en] = TRUE
+    if pou.eno is not None:
+        # 6.6.1.5, rule 2: TRUE unless the body says otherwise
+        context.emit(n.Store(storage_place(pou.eno), TRUE))
     for edge in pou.edges:
         find_edge(context, edge)
     lower_block(context, pou.body)

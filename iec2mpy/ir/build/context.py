@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 
 from iec2mpy.ir import nodes as n
@@ -19,16 +19,16 @@ TRUE = n.Const(1, ty.BOOL)
 class Context:
     """Collects the statements of one POU. The block that is open receives what is emitted.
 
-    `depth`: how many expressions stand around the one that is being lowered. `controls`: control variables of the loops
-    around, with their values. `edges`: what the body reads in place of an input with an edge. `instance`: one that was
-    called, with its place (`called`)."""
+    `depth`: how many expressions stand around the one that is being lowered. `values`: variables whose value is at
+    hand: control variables of the loops around, EN and ENO, arguments of a standard function. `edges`: what the body
+    reads in place of an input with an edge. `instance`: one that was called, with its place (`called`)."""
 
     def __init__(self, pou: t.Pou) -> None:
         self.pou = pou
         self.hidden: list[t.Variable] = []
         self.locals = 0
         self.depth = 0
-        self.controls: dict[t.Variable, n.Local] = {}
+        self.values: dict[t.Variable, n.Expr] = {}
         self.edges: dict[t.Variable, n.Place] = {}
         self.instance: tuple[t.Expr, n.Place] | None = None
         self._block: list[n.Stmt] = []
@@ -105,9 +105,16 @@ class Context:
         if reached or variable.owner is None:
             yield
             return
-        self.controls[variable] = current
+        with self.known({variable: current}):
+            yield
+
+    @contextmanager
+    def known(self, values: Mapping[t.Variable, n.Expr]) -> Iterator[None]:
+        """Inside, these values stand for their variables."""
+        self.values |= values
         yield
-        del self.controls[variable]
+        for variable in values:
+            del self.values[variable]
 
     @contextmanager
     def called(self, instance: t.Expr, place: n.Place) -> Iterator[None]:
@@ -151,7 +158,7 @@ class Context:
         return settled
 
     def _has_effect_since(self, mark: int) -> bool:
-        return any(isinstance(s, (n.Call, n.Store, n.Copy, n.If, n.While)) for s in self._block[mark:])
+        return any(isinstance(s, (n.Call, n.Store, n.Copy, n.If, n.Try, n.While)) for s in self._block[mark:])
 
     def settle_place(self, mark: int, place: n.Place) -> n.Place:
         """`settle`, for the subscripts of a place, and for the reference that leads to it."""

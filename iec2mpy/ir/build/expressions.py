@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from iec2mpy.ir import nodes as n
-from iec2mpy.ir.build import calls
+from iec2mpy.ir.build import calls, controlled
 from iec2mpy.ir.build.builtins import lower_builtin, power
 from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.conversions import convert, real_result
@@ -14,6 +14,7 @@ from iec2mpy.ir.build.stores import assign
 from iec2mpy.ir.walk import may_fault
 from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
+from iec2mpy.semantics.defaults import default_value
 
 _COMPARISONS = {"=": "eq", "<>": "ne", "<": "lt", ">": "gt", "<=": "le", ">=": "ge"}
 _BITWISE = {"AND": "and", "OR": "or", "XOR": "xor"}
@@ -35,8 +36,8 @@ def _lower(context: Context, expr: t.Expr) -> n.Expr:
     match expr:
         case t.Constant(value):
             return n.Const(value, stored_type(expr.type))
-        case t.VariableRef(variable) if variable in context.controls:
-            return context.controls[variable]
+        case t.VariableRef(variable) if variable in context.values:
+            return context.values[variable]
         case t.ReferenceTo(target):
             return n.Ref(plain_place(context, target, lower_expr))
         case t.VariableRef() | t.DirectRef() | t.FieldRef() | t.ElementRef() | t.Dereference():
@@ -60,10 +61,8 @@ def _lower(context: Context, expr: t.Expr) -> n.Expr:
             return _binary(context, operator, left_value, right_value, stored_type(expr.type))
         case t.BuiltinCall(name, arguments):
             return lower_builtin(context, name, lower_all(context, arguments), stored_type(expr.type))
-        case t.FunctionCall():
-            result = calls.call_function(context, expr)
-            assert result is not None, "the checker lets only functions with a result into expressions"
-            return context.spill(n.Load(result, stored_type(expr.type)))
+        case t.FunctionCall() | t.StandardCall():
+            return _called(context, expr)[0]
 
 
 def _short_circuit(context: Context, operator: str, left: t.Expr, right: t.Expr) -> n.Expr:
@@ -83,9 +82,7 @@ def _short_circuit(context: Context, operator: str, left: t.Expr, right: t.Expr)
 def lower_aggregate(context: Context, expr: t.Expr) -> n.Place:
     """Where a whole array or structure is."""
     if isinstance(expr, t.FunctionCall):
-        result = calls.call_function(context, expr)
-        assert result is not None, "the checker lets only functions with a result into expressions"
-        return result
+        return _called_whole(context, expr)[0]
     place = lower_place(context, expr, lower_expr)
     if isinstance(place, n.Place):
         return place
@@ -94,44 +91,106 @@ def lower_aggregate(context: Context, expr: t.Expr) -> n.Place:
     return whole
 
 
+def _called(context: Context, call: t.FunctionCall | t.StandardCall) -> tuple[n.Expr, n.Local | None]:
+    """The single result of a call; under EN and ENO with whether the call came to its end. Where it did not, the result
+    has the default value of its type."""
+    if isinstance(call, t.StandardCall):
+        return controlled.call_standard(context, call)
+    stored = stored_type(call.type)
+    if call.control is None:
+        result, _ = calls.call_function(context, call, None)
+        assert result is not None, "the checker lets only functions with a result into expressions"
+        return context.spill(n.Load(result, stored)), None
+    value = controlled.preset(context, stored)
+    _, done = calls.call_function(context, call, lambda result: context.emit(n.SetLocal(value, n.Load(result, stored))))
+    return value, done
+
+
+def _called_whole(context: Context, call: t.FunctionCall) -> tuple[n.Place, n.Local | None]:
+    """Where the result of a call is that is an array or structure; the next call of the function overwrites it. Under
+    EN and ENO it is a copy, and with it comes whether the call came to its end."""
+    if call.control is None:
+        result, _ = calls.call_function(context, call, None)
+        assert result is not None, "the checker lets only functions with a result into expressions"
+        return result, None
+    kept = context.new_hidden(ty.unaliased(call.type))
+    context.emit(n.Reset(kept, default_value(kept.type)))
+    _, done = calls.call_function(context, call, lambda result: context.emit(n.Copy(kept, result)))
+    return kept, done
+
+
 def assign_expr(context: Context, target: t.Expr, value: t.Expr) -> None:
     """`target := value`, for single values and whole arrays and structures. The target's subscripts come first."""
-    if isinstance(target, t.CharacterRef):
-        _assign_character(context, target, value)
+    conversions: list[t.Convert] = []
+    call = value
+    while isinstance(call, t.Convert):
+        conversions.insert(0, call)
+        call = call.operand
+    if isinstance(call, (t.FunctionCall, t.StandardCall)) and call.control is not None:
+        _assign_controlled(context, target, call, conversions)
         return
-    part = target if isinstance(target, t.PartRef) else None
-    if part is not None:
-        target = part.base
-    place = lower_place(context, target, lower_expr)
+    place = lower_place(context, _stored(target), lower_expr)
     mark = context.mark()
-    assert target.type is not None
     if ty.value_type(target.type) is None:
         source = lower_aggregate(context, value)
-        if isinstance(place, PackedPlace):
-            pack(context, place, source)
-        else:
-            context.emit(n.Copy(context.settle_place(mark, place), source))
+        _copy(context, context.settle_place(mark, place) if isinstance(place, n.Place) else place, source)
+        return
+    indices = (target.index,) if isinstance(target, t.CharacterRef) else ()
+    *index, lowered = lower_all(context, (*indices, value))
+    _store(context, target, context.settle_place(mark, place) if isinstance(place, n.Place) else place, index, lowered)
+
+
+def _stored(target: t.Expr) -> t.Expr:
+    """The variable that is written where a part of it, or a character, is assigned."""
+    return target.base if isinstance(target, (t.PartRef, t.CharacterRef)) else target
+
+
+def _copy(context: Context, place: n.Place | PackedPlace, source: n.Place) -> None:
+    """A whole array or structure to its place."""
+    if isinstance(place, PackedPlace):
+        pack(context, place, source)
     else:
-        lowered = lower_expr(context, value)
-        if isinstance(place, n.Place):
-            place = context.settle_place(mark, place)
-        if part is not None:
-            if isinstance(place, n.Place):
-                place = fixed(context, place)
-            lowered = with_part(_load(context, place, stored_type(target.type)), part.low, lowered)
-        assign(context, place, target.type, lowered)
+        context.emit(n.Copy(place, source))
 
 
-def _assign_character(context: Context, target: t.CharacterRef, value: t.Expr) -> None:
-    """`s[i] := c`: the string with another character goes where it was. No character is added at its end."""
-    place = lower_place(context, target.base, lower_expr)
-    mark = context.mark()
-    index, code = lower_all(context, (target.index, value))
-    assert isinstance(place, n.Place), "no string lies among shared bytes"
-    place = fixed(context, context.settle_place(mark, place))
-    string = n.Load(place, stored_type(target.base.type))
-    context.emit(n.Mark(context.site))
-    context.emit(n.Store(place, n.Intrinsic("with_character", (string, index, code), string.type)))
+def _store(
+    context: Context, target: t.Expr, place: n.Place | PackedPlace, index: list[n.Expr], value: n.Expr
+) -> None:
+    """A single value to where `_stored` is; `index` has the number of the character, if it is one."""
+    if isinstance(target, t.CharacterRef):
+        # the string with another character goes where it was; no character is added at its end
+        assert isinstance(place, n.Place), "no string lies among shared bytes"
+        place = fixed(context, place)
+        string = n.Load(place, stored_type(target.base.type))
+        context.emit(n.Mark(context.site))
+        context.emit(n.Store(place, n.Intrinsic("with_character", (string, *index, value), string.type)))
+    elif isinstance(target, t.PartRef):
+        place = fixed(context, place) if isinstance(place, n.Place) else place
+        whole = _load(context, place, stored_type(target.base.type))
+        assign(context, place, target.base.type, with_part(whole, target.low, value))
+    else:
+        assign(context, place, target.type, value)
+
+
+def _assign_controlled(
+    context: Context, target: t.Expr, call: t.FunctionCall | t.StandardCall, conversions: list[t.Convert]
+) -> None:
+    """The result of a call with EN or ENO: it is copied only where there is one (6.6.1.5)."""
+    place = lower_place(context, _stored(target), lower_expr)
+    place = fixed(context, place) if isinstance(place, n.Place) else place
+    index = [context.kept(lower_expr(context, target.index))] if isinstance(target, t.CharacterRef) else []
+    if isinstance(call, t.FunctionCall) and ty.value_type(call.type) is None:
+        source, done = _called_whole(context, call)
+        with context.block() as copies:
+            _copy(context, place, source)
+    else:
+        value, done = _called(context, call)
+        with context.block() as copies:
+            for conversion in conversions:
+                value = convert(context, value, stored_type(conversion.type), conversion.truncate)
+            _store(context, target, place, index, value)
+    assert done is not None, "a call with EN or ENO may not come to its end"
+    context.emit(n.If(done, tuple(copies), ()))
 
 
 def _load(context: Context, place: n.Place | PackedPlace, value_type: n.ValueType) -> n.Expr:

@@ -8,6 +8,7 @@ from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build.branches import LONGEST, Branch, keep_in_frame, lower_chain
 from iec2mpy.ir.build.calls import call_block, call_function
 from iec2mpy.ir.build.context import Context
+from iec2mpy.ir.build.controlled import call_standard
 from iec2mpy.ir.build.expressions import assign_expr, lower_expr
 from iec2mpy.ir.build.loops import lower_for, lower_repeat, lower_while
 from iec2mpy.semantics import typed as t
@@ -24,8 +25,10 @@ def _lower(context: Context, statement: t.Stmt) -> None:
     match statement:
         case t.Assign(target, value):
             assign_expr(context, target, value)
-        case t.CallFunction(call):
-            call_function(context, call)
+        case t.CallFunction(t.StandardCall() as call):
+            call_standard(context, call)
+        case t.CallFunction(t.FunctionCall() as call):
+            call_function(context, call, None)
         case t.CallBlock():
             call_block(context, statement)
         case t.If():
