@@ -5,7 +5,7 @@ intervals below 17 minutes) nothing is allocated on a 32-bit board.
 """
 
 from mcu_runtime.faults import forget_tracebacks, kind_of, refill
-from mcu_runtime.slots import NOW, SITE
+from mcu_runtime.slots import NOW, NOW_US, SITE, WRAPS
 
 DEFAULT_PERIOD_US = 10_000
 
@@ -67,6 +67,7 @@ class Controller:
         if self._untimed:
             self._all.append(self._untimed)
         self._now = 0  # ms, as in slot NOW
+        self._wraps = 0  # how often it has come to its highest value
         self._rest = 0  # us that are no whole ms yet
         self.restart(True)
 
@@ -82,6 +83,7 @@ class Controller:
         the clock goes on."""
         self._safe(self._program.V)
         self._now = 0 if cold else self._now
+        self._wraps = 0 if cold else self._wraps
         self._rest = 0 if cold else self._rest
         self.fault = None
         self.detail = ""
@@ -221,6 +223,7 @@ class Controller:
         self._now += us // 1000
         if self._now > 0x7FFFFFFF:
             self._now -= 0x100000000
+            self._wraps += 1
         self._rest = us % 1000
 
     def _run(self, task, real):
@@ -230,6 +233,8 @@ class Controller:
         if real:
             self._advance(passed)
         V[NOW] = self._now
+        V[NOW_US] = self._rest
+        V[WRAPS] = self._wraps
         refill(V, real)
         task.begin()
         try:

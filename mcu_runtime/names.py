@@ -3,7 +3,7 @@
 The file is read line by line when something is asked for, as a board has no room for a table of names.
 """
 
-from mcu_runtime.arithmetic import bits_to_real, f32, real_to_bits
+from mcu_runtime.arithmetic import bits_to_lreal, bits_to_real, f32, lreal_to_bits, real_to_bits
 
 
 class Names:
@@ -24,7 +24,7 @@ class Names:
             if not first <= index <= last:
                 raise KeyError("%s: the subscript %d is not in %d..%d" % (path, index, first, last))
             slot += (index - first) * stride
-        enumeration = self._line("=" + type_name) if array != "O" and type_name not in _ELEMENTARY else None
+        enumeration = self._line("=" + type_name) if low and type_name not in _ELEMENTARY else None
         members = {}
         for member in enumeration[1:] if enumeration else ():
             name, number = member.split(":")
@@ -46,13 +46,32 @@ class Names:
         return None
 
 
-_ELEMENTARY = ("BOOL", "SINT", "INT", "DINT", "USINT", "UINT", "UDINT", "BYTE", "WORD", "DWORD", "TIME", "CHAR")
+_ELEMENTARY = (
+    "BOOL",
+    "SINT",
+    "INT",
+    "DINT",
+    "LINT",
+    "USINT",
+    "UINT",
+    "UDINT",
+    "ULINT",
+    "BYTE",
+    "WORD",
+    "DWORD",
+    "LWORD",
+    "TIME",
+    "LTIME",
+    "CHAR",
+    "STRING",
+    "WSTRING",
+)
 
 
 class Place:
-    """One variable. Values: BOOL bool, integers and bit strings int, TIME int (ms), REAL float, STRING and WSTRING str,
-    CHAR (a WCHAR too) a str of one character, an enumeration the name of the value, a reference "NULL" or "not
-    NULL". `low` and `high`: of a STRING 0 and its capacity, of a REAL None.
+    """One variable. Values: BOOL bool, integers and bit strings int, TIME int (ms), LTIME int (ns), REAL and LREAL
+    float, STRING and WSTRING str, CHAR (a WCHAR too) a str of one character, an enumeration the name of the value, a
+    reference "NULL" or "not NULL". `low` and `high`: of a STRING 0 and its capacity, of a REAL or LREAL None.
 
     `array` is V or O; or B and a number of bits, for a variable among bytes that others share: each byte is in a slot
     of V, and `slot` counts bits from slot 0 on."""
@@ -63,7 +82,8 @@ class Place:
         self.array = array
         self.slot = slot
         self._bits = int(array[1:]) if array[0] == "B" else 0
-        self._is_object = array == "O" or low is None
+        # a real number or a text: neither a number with limits nor a name
+        self._is_object = low is None or type_name in ("STRING", "WSTRING")
         self.low = low
         self.high = high
         self._members = members
@@ -77,7 +97,7 @@ class Place:
             number |= program.V[at] << 8 * i
         number = number >> (self.slot & 7) & ((1 << self._bits) - 1)
         if self.low is None:
-            return bits_to_real(number)
+            return bits_to_real(number) if self._bits == 32 else bits_to_lreal(number)
         return number - (1 << self._bits) if self.low < 0 and number >> (self._bits - 1) else number
 
     def store(self, program, stored):
@@ -86,7 +106,9 @@ class Place:
             (program.O if self.array == "O" else program.V)[self.slot] = stored
             return
         ones = (1 << self._bits) - 1 << (self.slot & 7)
-        number = (real_to_bits(stored) if self.low is None else stored) << (self.slot & 7) & ones
+        if self.low is None:
+            stored = real_to_bits(stored) if self._bits == 32 else lreal_to_bits(stored)
+        number = stored << (self.slot & 7) & ones
         for i, at in enumerate(self._bytes()):
             program.V[at] = program.V[at] & ~(ones >> 8 * i) | number >> 8 * i & 0xFF
 
@@ -106,6 +128,8 @@ class Place:
         for name, number in self._members.items():
             if number == stored:
                 return name
+        if self.array == "O":
+            return stored
         return stored + 0x100000000 if stored < 0 <= self.low else stored
 
     def encode(self, value):
@@ -133,13 +157,13 @@ class Place:
                 raise ValueError("%s is False or True" % self.path)
             raise ValueError("%s is a %s: a whole number from %d to %d" % (self.path, self.type, self.low, self.high))
         value = int(value)
-        return value - 0x100000000 if value > 0x7FFFFFFF else value
+        return value - 0x100000000 if self.array == "V" and value > 0x7FFFFFFF else value
 
     def _object(self, value):
         if self.high is None:
             if isinstance(value, bool) or not isinstance(value, (int, float)):
                 raise ValueError("%s is a %s: a number" % (self.path, self.type))
-            return f32(float(value))
+            return float(value) if self.type == "LREAL" else f32(float(value))
         return self._text(value, 0, self.high, 0xFFFF if self.type == "WSTRING" else 0xFF)
 
     def _text(self, value, shortest, longest, highest):

@@ -13,7 +13,8 @@ from iec2mpy.source.spans import Span
 def first_allocation(module: n.Module, target: Target) -> Span | None:
     """The first source line whose code makes an object on the heap of a board, or None where no line does.
 
-    REAL results and strings are objects. In bytecode an integer of more than 31 bits is one too; in viper it is none.
+    Real numbers, integers of 64 bits and strings are objects. In bytecode an integer of more than 31 bits is one
+    too, in viper it is none.
     """
     for body in module.bodies.values():
         span = body.pou.span
@@ -27,7 +28,7 @@ def first_allocation(module: n.Module, target: Target) -> Span | None:
 
 def _allocates(expr: n.Expr, target: Target) -> bool:
     match expr:
-        case n.Op() | n.ToReal() | n.Intrinsic() if expr.type.in_objects:
+        case n.Op() | n.Not() | n.Wrap() | n.ToReal() | n.Intrinsic() | n.Now() if expr.type.in_objects:
             return True
         case n.Intrinsic(name, arguments):
             # arguments and results of a Python function are objects: a large integer is boxed

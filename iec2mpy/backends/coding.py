@@ -6,27 +6,27 @@ import struct
 from collections.abc import Callable, Mapping
 
 from iec2mpy.backends.forms import pattern
+from iec2mpy.semantics.arithmetic import NANOSECONDS
 from iec2mpy.semantics.types import CHAR, WCHAR
-from iec2mpy.syntax.time_literals import value_of
+from iec2mpy.syntax.time_literals import UNITS, value_of
 
 Enum = Mapping[str, int]
-_UNITS = (("d", 86_400_000), ("h", 3_600_000), ("m", 60_000), ("s", 1000), ("ms", 1))
 
 
-def format_duration(milliseconds: int) -> str:
-    """`T#1h30m`, `T#-500ms`, `T#0ms`."""
-    left, text = abs(milliseconds), ""
-    for unit, size in _UNITS:
+def format_duration(prefix: str, nanoseconds: int, smallest: str) -> str:
+    """`T#1h30m`, `T#-500ms`, `T#0ms`, `LT#1us5ns`; `smallest`: the unit of 0."""
+    left, text = abs(nanoseconds), ""
+    for unit, size in UNITS.items():
         count, left = divmod(left, size)
         text += f"{count}{unit}" if count else ""
-    return f"T#{'-' if milliseconds < 0 else ''}{text or '0ms'}"
+    return f"{prefix}#{'-' if nanoseconds < 0 else ''}{text or f'0{smallest}'}"
 
 
 def parse_duration(text: str) -> int:
-    """Milliseconds of a duration such as `T#1s500ms`, as TIME holds them; raises ValueError."""
+    """Nanoseconds of a duration such as `T#1s500ms`; raises ValueError."""
     match value_of(text):
         case ("duration", nanoseconds):
-            return nanoseconds // 1_000_000
+            return nanoseconds
         case _:
             raise ValueError(f"{text!r} is no duration such as T#1s500ms")
 
@@ -34,7 +34,7 @@ def parse_duration(text: str) -> int:
 def _in_range(value: int, low: int, high: int) -> int:
     if not low <= value <= high:
         raise ValueError(f"{value} is not in {low}..{high}")
-    return pattern(value)
+    return value
 
 
 def _encode_bool(value: object, _low: int, _high: int, _enum: Enum) -> object:
@@ -43,25 +43,42 @@ def _encode_bool(value: object, _low: int, _high: int, _enum: Enum) -> object:
     raise ValueError(f"{value!r} is neither true nor false")
 
 
-def _encode_integer(value: object, low: int, high: int, _enum: Enum) -> object:
+def _encode_wide(value: object, low: int, high: int, _enum: Enum) -> int:
     if isinstance(value, bool) or not isinstance(value, int):
         raise ValueError(f"{value!r} is no integer")
     return _in_range(value, low, high)
 
 
-def _encode_real(value: object, _low: int, _high: int, _enum: Enum) -> object:
+def _encode_integer(value: object, low: int, high: int, enum: Enum) -> object:
+    return pattern(_encode_wide(value, low, high, enum))
+
+
+def _encode_real(value: object, low: int, high: int, enum: Enum) -> object:
+    try:
+        return struct.unpack("<f", struct.pack("<f", _encode_lreal(value, low, high, enum)))[0]
+    except OverflowError:
+        raise ValueError(f"{value!r} is too large for REAL") from None
+
+
+def _encode_lreal(value: object, _low: int, _high: int, _enum: Enum) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError(f"{value!r} is no number")
     try:
-        return struct.unpack("<f", struct.pack("<f", value))[0]
+        return float(value)
     except OverflowError:
-        raise ValueError(f"{value!r} is too large for REAL") from None
+        raise ValueError(f"{value!r} is too large for LREAL") from None
+
+
+def _encode_ltime(value: object, low: int, high: int, _enum: Enum) -> object:
+    if not isinstance(value, str):
+        raise ValueError(f"{value!r} is no duration such as T#1s500ms")
+    return _in_range(parse_duration(value), low, high)
 
 
 def _encode_duration(value: object, low: int, high: int, _enum: Enum) -> object:
     if not isinstance(value, str):
         raise ValueError(f"{value!r} is no duration such as T#1s500ms")
-    return _in_range(parse_duration(value), low, high)
+    return _in_range(parse_duration(value) // NANOSECONDS, low, high)
 
 
 def _encode_text(value: object, capacity: int, highest: int) -> str:
@@ -112,8 +129,11 @@ _CODERS: Mapping[str, tuple[Callable[[object, Enum], object], Callable[[object, 
     "bool": (lambda raw, _: bool(raw), _encode_bool),
     "integer": (lambda raw, _: raw, _encode_integer),
     "unsigned32": (lambda raw, _: _as_int(raw) & 0xFFFFFFFF, _encode_integer),
+    "integer64": (lambda raw, _: raw, _encode_wide),
     "real": (lambda raw, _: raw, _encode_real),
-    "duration": (lambda raw, _: format_duration(_as_int(raw)), _encode_duration),
+    "lreal": (lambda raw, _: raw, _encode_lreal),
+    "duration": (lambda raw, _: format_duration("T", _as_int(raw) * NANOSECONDS, "ms"), _encode_duration),
+    "ltime": (lambda raw, _: format_duration("LT", _as_int(raw), "ns"), _encode_ltime),
     "string": (lambda raw, _: raw, _encode_string),
     "wstring": (lambda raw, _: raw, _encode_wstring),
     "character": (lambda raw, _: chr(_as_int(raw)), _encode_character),
@@ -128,7 +148,8 @@ def _as_int(raw: object) -> int:
 
 
 def decode(kind: str, raw: object, enum: Enum) -> object:
-    """The value of a slot as it is shown: bool, int, float, str; TIME as `T#…`, an enumeration as its name."""
+    """The value of a slot as it is shown: bool, int, float, str; a duration as `T#…` or `LT#…`, an enumeration as its
+    name."""
     return _CODERS[kind][0](raw, enum)
 
 

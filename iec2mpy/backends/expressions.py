@@ -18,6 +18,12 @@ from iec2mpy.ir.walk import may_fault
 from iec2mpy.semantics import types as ty
 from iec2mpy.semantics.typed import Pou
 
+_WIDE_HELPERS = {
+    **{"div": "quotient", "mod": "remainder"},
+    **{"shl": "shl64", "shr": "shr64", "rol": "rol64", "ror": "ror64"},
+}
+HELPERS = {"f32", "boxed", "wrap64", "mask64", "now_ns", *_WIDE_HELPERS.values()}
+"""Functions of the runtime that stand for no intrinsic."""
 _SYMBOLS = {"add": "+", "sub": "-", "mul": "*", "and": "&", "or": "|", "xor": "^"}
 _HIGHEST = (1 << 31) - 1
 """Of a machine word of 32 bits; of its lowest number there is no negative."""
@@ -61,7 +67,7 @@ class ExpressionWriter:
             case n.Const():
                 # viper takes no True in `while`, and MicroPython optimises `while 1`
                 return number(int(bool(expr.value) != negate))
-            case n.Op(name, left, right) if name in n.COMPARISONS and not (negate and left.type is ty.REAL):
+            case n.Op(name, left, right) if name in n.COMPARISONS and not (negate and _is_real(left)):
                 return self._comparison(_NEGATED[name] if negate else name, left, right)
             case n.Op(name, left, right) if name in n.COMPARISONS:
                 # with a NaN, neither a < b nor a >= b holds
@@ -87,17 +93,16 @@ class ExpressionWriter:
             case n.Ref(place):
                 return self.addresses.reference(place)
             case n.Now(value_type):
-                assert isinstance(value_type, ty.ElementaryType)
-                return forms.load(self.target, Text(f"v[{self.names.name(('now',), NOW)}]"), value_type, value_type.low)
+                return self._now(value_type)
             case n.Op(name, left, right, value_type):
                 return self._operation(name, left, right, value_type)
             case n.Not(operand, value_type):
                 return self._complement(operand, value_type)
             case n.Wrap(operand, value_type):
                 assert isinstance(value_type, ty.ElementaryType)
-                return forms.wrap(self.target, self.value(operand), value_type)
-            case n.ToReal(operand):
-                return self._to_real(operand)
+                return self._wrapped(operand, value_type)
+            case n.ToReal(operand, value_type):
+                return self._to_real(operand, value_type)
             case n.Select(condition, then, otherwise):
                 chosen = f"{self.value(then).at(Binding.OR)} if {self.condition(condition).at(Binding.OR)}"
                 return Text(f"{chosen} else {self.value(otherwise).at(Binding.SELECT)}", Binding.SELECT)
@@ -107,16 +112,26 @@ class ExpressionWriter:
     def _constant(self, value: object, value_type: n.ValueType) -> Text:
         if isinstance(value_type, ty.StringType):
             return Text(quoted(str(value)))
-        if value_type is ty.REAL:
+        if isinstance(value_type, ty.ElementaryType) and value_type.is_real:
             assert isinstance(value, (int, float))
             return real_text(float(value), self.target, self.names)
         assert isinstance(value, int) and isinstance(value_type, ty.ElementaryType)
+        if value_type.in_objects and self.viper:
+            self.uses_objects = True
+            slot, digits = self.layout.object_constant(value), f"{value & 0xFFFFFFFFFFFFFFFF:016X}"
+            return Text(f"o[{self.names.name(('const', digits), slot, str(value))}]")
         if forms.held_as_pattern(self.target, value_type):
             value = forms.pattern(value)
         if self.target.word == 32 and not -_VIPER_LITERAL < value < _VIPER_LITERAL:
             slot = self.layout.constant(value)
             return Text(f"v[{self.names.name(('const', f'{value & 0xFFFFFFFF:08X}'), slot, str(value))}]")
         return number(value)
+
+    def _now(self, value_type: n.ValueType) -> Text:
+        assert isinstance(value_type, ty.ElementaryType)
+        if value_type.in_objects:
+            return call(self.need("slots", "now_ns"), Text("V"))
+        return forms.load(self.target, Text(f"v[{self.names.name(('now',), NOW)}]"), value_type, value_type.low)
 
     def _load(self, place: n.Place, value_type: n.ValueType) -> Text:
         if value_type.in_objects:
@@ -145,10 +160,14 @@ class ExpressionWriter:
             compared = self._comparison(name, left, right)
             # to viper a comparison is a bool, which takes part in no operation
             return call("int", compared) if self.viper else compared
-        if value_type is ty.REAL:
-            return self._rounded(infix(self.value(left), "/" if name == "div" else _SYMBOLS[name], self.value(right)))
         assert isinstance(value_type, ty.ElementaryType)
+        if value_type.is_real:
+            result = infix(self.value(left), "/" if name == "div" else _SYMBOLS[name], self.value(right))
+            return self._rounded(result, value_type)
         match name:
+            case _ if value_type.in_objects and name in _WIDE_HELPERS:
+                helper = self.need("arithmetic", _WIDE_HELPERS[name])
+                return call(helper, self.boxing(left), self.boxing(right))
             case "div" | "mod":
                 return self._division(name, left, right)
             case "shl":
@@ -213,44 +232,76 @@ class ExpressionWriter:
     def _complement(self, operand: n.Expr, value_type: n.ValueType) -> Text:
         assert isinstance(value_type, ty.ElementaryType)
         if value_type is ty.BOOL:
-            if isinstance(operand, n.Op) and operand.name in n.COMPARISONS and operand.left.type is not ty.REAL:
+            if isinstance(operand, n.Op) and operand.name in n.COMPARISONS and not _is_real(operand.left):
                 return self._operation(_NEGATED[operand.name], operand.left, operand.right, ty.BOOL)
             return infix(self.value(operand), "^", number(1))
+        if value_type.in_objects:
+            return infix(self.value(operand), "^", self._constant(value_type.high, value_type))
         ones = -1 if forms.held_as_pattern(self.target, value_type) else value_type.high
         return infix(self.value(operand), "^", number(ones))
 
-    def _to_real(self, operand: n.Expr) -> Text:
-        assert isinstance(operand.type, ty.ElementaryType)
-        value = call("float", forms.unsigned(self.target, self.value(operand), operand.type))
+    def _wrapped(self, operand: n.Expr, to: ty.ElementaryType) -> Text:
+        """The operand modulo 2^bits, as a machine word or an object, whatever it is itself."""
+        if not to.in_objects:
+            text = self.value(operand)
+            if operand.type.in_objects and self.viper:
+                text = call("int", text)  # the low bits of any integer
+            return forms.wrap(self.target, text, to)
+        if self._is_widened(operand, to):
+            text = self.boxing(operand)
+            return call(self.need("arithmetic", "boxed"), text) if self.viper else text
+        return call(self.need("arithmetic", "wrap64" if to.low else "mask64"), self.boxing(operand))
+
+    def _is_widened(self, operand: n.Expr, to: n.ValueType) -> bool:
+        """Whether a value of V, which the type in O has, only becomes an object."""
+        if not to.in_objects or operand.type.in_objects:
+            return False
+        assert isinstance(to, ty.ElementaryType)
         low, high = bounds(operand)
-        # integers of up to 24 bits are exact in single precision
-        return value if low >= -(1 << 24) and high <= 1 << 24 else self._rounded(value)
+        return to.low <= low and high <= to.high
+
+    def boxing(self, expr: n.Expr) -> Text:
+        """The value, for what makes an object of it anyway: an argument of a function of Python, an element of O."""
+        match expr:
+            case n.Const(int() as constant) if self.target.word != 32 or constant != -_VIPER_LITERAL:
+                return number(constant)
+            case n.Wrap(operand) if self._is_widened(operand, expr.type):
+                return self.boxing(operand)
+        text = self.value(expr)
+        if isinstance(expr.type, ty.ElementaryType) and not expr.type.in_objects:
+            return forms.unsigned(self.target, text, expr.type)
+        return text
+
+    def _to_real(self, operand: n.Expr, to: n.ValueType) -> Text:
+        assert isinstance(operand.type, ty.ElementaryType)
+        if operand.type.is_real:
+            return self.value(operand)  # a REAL: each is an LREAL, too
+        value = call("float", self.boxing(operand))
+        if not operand.type.in_objects:
+            low, high = bounds(operand)
+            if low >= -(1 << 24) and high <= 1 << 24:
+                return value  # integers of up to 24 bits are exact in single precision
+        return self._rounded(value, to)
 
     def _intrinsic(self, name: str, arguments: tuple[n.Expr, ...], value_type: n.ValueType) -> Text:
         runtime = INTRINSICS[name]
         if runtime.module is not None:
             self.need(runtime.module, runtime.function)
-        texts = [self._argument(argument) for argument in arguments]
-        result = call(runtime.function, *texts)
+        result = call(runtime.function, *(self.boxing(argument) for argument in arguments))
         if runtime.rounds:
-            return self._rounded(result)
+            return self._rounded(result, value_type)
         return call("int", result) if self.viper and not value_type.in_objects else result
 
-    def _argument(self, argument: n.Expr) -> Text:
-        """An argument of a function of the runtime: there, a number is an object, of any size."""
-        if isinstance(argument, n.Const) and isinstance(argument.value, int):
-            return number(argument.value)
-        text = self.value(argument)
-        if isinstance(argument.type, ty.ElementaryType) and not argument.type.in_objects:
-            return forms.unsigned(self.target, text, argument.type)
-        return text
-
-    def _rounded(self, value: Text) -> Text:
-        """A REAL result in single precision, where the host computes in double."""
-        return value if self.target.single else call(self.need("arithmetic", "f32"), value)
+    def _rounded(self, value: Text, of: n.ValueType) -> Text:
+        """A REAL result in single precision, where the host computes in double; an LREAL as it is."""
+        return value if self.target.single or of is ty.LREAL else call(self.need("arithmetic", "f32"), value)
 
 
 _NEGATED = {"eq": "ne", "ne": "eq", "lt": "ge", "ge": "lt", "gt": "le", "le": "gt"}
+
+
+def _is_real(expr: n.Expr) -> bool:
+    return isinstance(expr.type, ty.ElementaryType) and expr.type.is_real
 
 
 def _choice(then: Text, condition: Text, otherwise: Text) -> Text:

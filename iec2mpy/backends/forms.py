@@ -2,7 +2,8 @@
 
 Texts are Python; a number with each says how tightly it binds, so that brackets stand only where they are needed.
 An integer text is a machine word: in the portable form any Python integer, in viper 64 or 32 bits. Where a word has 32
-bits, UDINT and DWORD are held as their signed pattern; elsewhere as their value.
+bits, UDINT and DWORD are held as their signed pattern; elsewhere as their value. Integers of 64 bits are Python's own
+everywhere: to viper they are objects, which no operation joins with a machine word, and a literal is a machine word.
 """
 
 from __future__ import annotations
@@ -96,7 +97,7 @@ def number(value: int) -> Text:
 
 def held_as_pattern(target: Target, value_type: ty.ElementaryType) -> bool:
     """Whether values of the type are held as a signed pattern of the same bits."""
-    return target.word == 32 and value_type.high >= 1 << 31
+    return target.word == 32 and value_type.high >= 1 << 31 and not value_type.in_objects
 
 
 def pattern(value: int) -> int:

@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from iec2mpy.backends.expressions import ExpressionWriter
+from iec2mpy.backends.expressions import HELPERS, ExpressionWriter
 from iec2mpy.backends.layout import MAX_OBJECTS, MAX_SLOTS, Layout, Size, lay_out
 from iec2mpy.backends.mapping import make_map
 from iec2mpy.backends.memory_map import MemoryMap
@@ -72,7 +72,7 @@ class _Generator:
         self.names = SlotNames()
         self.sites = Sites()
         self.runtime: dict[str, set[str]] = {}
-        helpers = {r.function for r in INTRINSICS.values()} | {"f32", "ZERO", "INDEX", "RANGE", "NULL"}
+        helpers = {r.function for r in INTRINSICS.values()} | HELPERS | {"ZERO", "INDEX", "RANGE", "NULL"}
         self.functions = function_names(list(module.bodies), helpers)
 
     def generate(self) -> GeneratedProgram:

@@ -71,8 +71,9 @@ class Layout:
     """The positions of everything.
 
     `located` by address: all variables at one address are one storage, except for those that lie among the bytes of
-    `shared`: these are `sharing`. `instances` by the number of the program. A
-    constant too large for the code of a 32-bit viper has a slot of its own (`constants`).
+    `shared`: these are `sharing`. `instances` by the number of the program. A constant too large for the code of a
+    32-bit viper has a slot of V of its own (`constants`); in viper each integer of 64 bits has one of O
+    (`object_constants`), as a literal would be a machine word.
     """
 
     module: n.Module
@@ -83,6 +84,7 @@ class Layout:
     instances: list[Size] = field(default_factory=list)
     frames: dict[Pou, Size] = field(default_factory=dict)
     constants: dict[int, int] = field(default_factory=dict)
+    object_constants: dict[int, int] = field(default_factory=dict)
     size: Size = Size(FIRST, FIRST_OBJECT)
     _records: dict[Pou | ty.StructType, Record] = field(default_factory=dict)
     _frame_records: dict[Pou, Record] = field(default_factory=dict)
@@ -174,6 +176,12 @@ class Layout:
         if value not in self.constants:
             self.constants[value] = self.place(_SLOT).v
         return self.constants[value]
+
+    def object_constant(self, value: int) -> int:
+        """The slot of O that holds a constant."""
+        if value not in self.object_constants:
+            self.object_constants[value] = self.place(_OBJECT).o
+        return self.object_constants[value]
 
     def single_base(self, pou: Pou) -> Size | None:
         """The base of the one instance that a block or program has in all of the application, or None where there are

@@ -15,10 +15,13 @@ from iec2mpy.syntax.tree import PouKind, Section
 
 _KINDS = {
     Kind.BOOL: "bool",
-    Kind.REAL: "real",
     Kind.DURATION: "duration",
     Kind.CHARACTER: "character",
     Kind.REFERENCE: "reference",
+}
+_WIDE_KINDS = {
+    **{ty.REAL: "real", ty.LREAL: "lreal", ty.LTIME: "ltime"},
+    **dict.fromkeys((ty.LINT, ty.ULINT, ty.LWORD), "integer64"),
 }
 
 
@@ -152,13 +155,15 @@ def _leaf(
     if isinstance(stored, ty.StringType):
         kind = "wstring" if stored.wide else "string"
         return MappedVariable(path, type_name, kind, "O", at.o, 0, stored.length, dimensions["O"])
-    if stored.in_objects:
-        return MappedVariable(path, type_name, _KINDS[stored.kind], "O", at.o, 0, 0, dimensions["O"])
-    low, high = ty.value_range(shape) or (stored.low, stored.high)
-    kind = _KINDS.get(stored.kind, "unsigned32" if stored.bits == 32 and stored.low == 0 else "integer")
+    low, high = ty.value_range(shape) or (0, 0)
+    array = "O" if stored.in_objects else "V"
     if isinstance(shape, ty.EnumType):
         kind, type_name = "enum", shape.name
         enums[shape.name] = dict(shape.values)
-    elif isinstance(shape, ty.RefType):
+    elif stored.in_objects:
+        kind = _WIDE_KINDS[stored]
+    else:
+        kind = _KINDS.get(stored.kind, "unsigned32" if stored.bits == 32 and stored.low == 0 else "integer")
+    if isinstance(shape, ty.RefType):
         low = high = 0  # only NULL can be written from outside
-    return MappedVariable(path, type_name, kind, "V", at.v, low, high, dimensions["V"])
+    return MappedVariable(path, type_name, kind, array, at.of(array), low, high, dimensions[array])

@@ -28,7 +28,7 @@ class Dimension:
 @dataclass(frozen=True, slots=True)
 class MappedVariable:
     """A leaf. `path` as declared, with `[]`, `[,]`, … for subscripts; `kind` how its value is coded (`coding.py`);
-    `low`, `high` the values it may have, for what is stored in V, and the capacity of a string.
+    `low`, `high` the values that an integer may have, and the capacity of a string.
 
     `array` is V or O, or B for a variable among shared bytes, each in a slot of V: its `slot` and strides count bits,
     from slot 0 on, and `bits` is its size (`shared_bytes.py`)."""
@@ -93,6 +93,7 @@ class BadValue(ValueError):
 
 _TOLD_BY_NAME = {
     "bool": "BOOL",
+    "lreal": "LREAL",
     "character": "CHAR",
     "string": "STRING",
     "wstring": "WSTRING",
@@ -234,7 +235,8 @@ class MemoryMap:
             yield from self.leaves(part)
 
     def read(self, node: Node, read_slots: ReadSlots) -> object:
-        """The value: bool, int, float, str; a TIME as `T#…`, an enumeration as its name; lists and tables of these."""
+        """The value: bool, int, float, str; a duration as `T#…` or `LT#…`, an enumeration as its name; lists and
+        tables of these."""
         leaves = list(self.leaves(node))
         values = dict(zip(leaves, self.read_leaves(leaves, read_slots), strict=True))
 
@@ -322,7 +324,7 @@ class MemoryMap:
             lines.append("\t".join([f"={name}", *(f"{value}:{number}" for value, number in values.items())]))
         for v in self.variables:
             dimensions = ";".join(f"{d.low}:{d.high}:{d.stride}" for d in v.dimensions)
-            bounds = ("", "") if v.kind == "real" else (str(v.low), str(v.high))
+            bounds = ("", "") if v.kind in ("real", "lreal") else (str(v.low), str(v.high))
             type_name = _TOLD_BY_NAME.get(v.kind, v.type)  # not an alias
             array = f"B{v.bits}" if v.array == "B" else v.array
             lines.append("\t".join([v.path.casefold(), type_name, array, str(v.slot), *bounds, dimensions]))

@@ -13,13 +13,16 @@ from decimal import Decimal
 from iec2mpy.backends.forms import Binding, Text
 from iec2mpy.backends.names import SlotNames
 from iec2mpy.backends.target import Target
+from iec2mpy.semantics.arithmetic import to_single
 
 _EXACT_DIGITS = 1 << 24
 _EXACT_POWER = 9
 
 
 def real_text(value: float, target: Target, names: SlotNames) -> Text:
-    """A REAL constant: a literal, or the name of a constant of the module."""
+    """A REAL or LREAL constant: a literal, or the name of a constant of the module."""
+    if target.single:
+        value = to_single(value)
     if value != value or value in (float("inf"), float("-inf")):
         return Text(f'float("{value}")')
     code = _shortest(value) if target.single else repr(value)

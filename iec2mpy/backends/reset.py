@@ -28,6 +28,9 @@ def reset_lines(
         if array == "V":
             for constant, slot in layout.constants.items():
                 values[slot] = pattern(constant)
+        else:
+            for constant, slot in layout.object_constants.items():
+                values[slot] = constant
         lines += _fills(array, first, values, target, names, runtime)
     return [*lines, ""]
 

@@ -42,7 +42,7 @@ def joined(variable: MappedVariable, slot: int, stored: Sequence[object]) -> obj
     if variable.array != "B":
         return stored[0]
     number = _number(stored) >> slot % _BYTE & (1 << variable.bits) - 1
-    if variable.kind == "real":
+    if variable.kind in ("real", "lreal"):
         return struct.unpack(_REALS[variable.bits], number.to_bytes(variable.bits // _BYTE, "little"))[0]
     return number - (1 << variable.bits) if variable.low < 0 and number >> variable.bits - 1 else number
 

@@ -102,11 +102,12 @@ class StatementWriter:
     # ------------------------------------------------------------------------------------- values
 
     def _store(self, place: n.Place, value: n.Expr) -> None:
-        text = self.expressions.value(value)
         if not isinstance(value.type, ty.ElementaryType) or value.type.in_objects:
             self.expressions.uses_objects = True
+            text = self.expressions.boxing(value)
             self._write(f"o[{self.expressions.addresses.subscript(place, 'O').code}] = {text.code}")
             return
+        text = self.expressions.value(value)
         text = forms.stored(self.expressions.target, text, value.type, bounds(value)[1])
         self._write(f"v[{self.expressions.addresses.subscript(place, 'V').code}] = {text.code}")
 

@@ -37,7 +37,8 @@ def flat_values(
     if isinstance(stored, ty.ElementaryType) and array == "V":
         assert isinstance(value, int)
         return [pattern(int(value))]
-    return [float(value)] if stored is ty.REAL and isinstance(value, (int, float)) else [value]
+    is_real = isinstance(stored, ty.ElementaryType) and stored.is_real
+    return [float(value)] if is_real and isinstance(value, (int, float)) else [value]
 
 
 def _record_values(

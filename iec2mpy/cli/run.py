@@ -175,7 +175,7 @@ def _show_last(
     from iec2mpy.backends.coding import format_duration
     from iec2mpy.cli.tables import values_table
 
-    span = format_duration(count * simulation.period // 1000)
+    span = format_duration("T", count * simulation.period * 1000, "ms")
     when = "stopped by a fault" if fault is not None else f"after {span} ({count} scans)"
     Console(highlight=False).print(values_table(watched, last, f"{name}, {when}"))
 

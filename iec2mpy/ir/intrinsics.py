@@ -40,6 +40,12 @@ INTRINSICS: Mapping[str, Runtime] = {
     "real_trunc": Runtime("real_trunc", faults=True),
     "real_to_bits": Runtime("real_to_bits"),
     "bits_to_real": Runtime("bits_to_real"),
+    "lreal_to_bits": Runtime("lreal_to_bits"),
+    "bits_to_lreal": Runtime("bits_to_lreal"),
+    "lreal_to_real": Runtime("lreal_to_real", faults=True),
+    # an LTIME by a real number (table 35)
+    "times_real": Runtime("times_real", faults=True),
+    "over_real": Runtime("over_real", faults=True),
     # strings (table 34) and their conversions
     "cut": Runtime("str_cut", "strings"),
     "LEN": Runtime("len", module=None),

@@ -134,9 +134,9 @@ class Now:
 class Op:
     """An operation of two operands, both of `operands`' type; `type` is the result's.
 
-    add sub mul div mod (integers: div truncates, mod has the sign of the dividend, and the divisor is not 0; REAL: add
-    sub mul div); and or xor (BOOL, bit strings); shl shr (zeros come in; the count is below the width), rol ror;
-    eq ne lt gt le ge (give BOOL).
+    add sub mul div mod (integers: div truncates, mod has the sign of the dividend, and the divisor is not 0; real
+    numbers: add sub mul div); and or xor (BOOL, bit strings); shl shr (zeros come in), rol ror (the right operand of
+    all four is a count in V, below the width, or of 64 bits any); eq ne lt gt le ge (give BOOL).
     """
 
     name: str
@@ -155,7 +155,8 @@ class Not:
 
 @dataclass(frozen=True, slots=True)
 class Wrap:
-    """The operand modulo 2^n, in the range of `type` (an integer, bit string or TIME)."""
+    """The operand modulo 2^n, in the range of `type` (an integer, bit string or duration), and where that type lives:
+    it takes a number from V to O and back, too."""
 
     operand: Expr
     type: ValueType
@@ -163,7 +164,7 @@ class Wrap:
 
 @dataclass(frozen=True, slots=True)
 class ToReal:
-    """An integer as a REAL."""
+    """An integer, a REAL or an LREAL as a REAL or LREAL, which holds it."""
 
     operand: Expr
     type: ValueType
@@ -191,6 +192,7 @@ class Intrinsic:
 Expr = Const | Local | Load | Ref | Now | Op | Not | Wrap | ToReal | Select | Intrinsic
 
 ARITHMETIC = frozenset({"add", "sub", "mul"})
+SHIFTS = frozenset({"shl", "shr", "rol", "ror"})
 COMPARISONS = {"eq": "==", "ne": "!=", "lt": "<", "gt": ">", "le": "<=", "ge": ">="}
 
 # -------------------------------------------------------------------------------------------- statements

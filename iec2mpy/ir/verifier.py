@@ -40,7 +40,9 @@ def problems(body: n.Body, module: n.Module) -> Iterator[str]:
             case _:
                 pass
         for expr in expressions(statement):
-            if isinstance(expr, n.Op) and expr.left.type.in_objects != expr.right.type.in_objects:
+            if isinstance(expr, n.Op) and expr.right.type.in_objects != (
+                expr.left.type.in_objects and expr.name not in n.SHIFTS
+            ):
                 yield f"{expr.name} of {expr.left.type} and {expr.right.type}"
 
 

@@ -22,8 +22,8 @@ def _fold(expr: n.Expr) -> n.Expr:
     match expr:
         case n.Wrap(n.Const() as operand, ty.ElementaryType() as to):
             return n.Const(arithmetic.wrap(operand.number, to), to)
-        case n.ToReal(n.Const() as operand, to):
-            return n.Const(arithmetic.to_single(float(operand.number)), to)
+        case n.ToReal(n.Const(value), ty.ElementaryType() as to):
+            return n.Const(arithmetic.to_precision(float(value), to), to)
         case n.Not(n.Const() as operand, ty.ElementaryType() as to):
             return n.Const(arithmetic.wrap(~operand.number, to), to)
         case n.Not(n.Not(operand, inner), outer) if inner == outer:
@@ -40,7 +40,7 @@ def _fold(expr: n.Expr) -> n.Expr:
 
 def _operation(expr: n.Op, left: n.Const, right: n.Const) -> n.Expr:
     """Exact for integers, as `Wrap` is a node of its own; the meaning of all else is `arithmetic`'s."""
-    if expr.name in n.ARITHMETIC and expr.type is not ty.REAL:
+    if expr.name in n.ARITHMETIC and isinstance(expr.type, ty.ElementaryType) and expr.type.is_whole:
         exact = {
             "add": left.number + right.number,
             "sub": left.number - right.number,
@@ -56,10 +56,10 @@ def _operation(expr: n.Op, left: n.Const, right: n.Const) -> n.Expr:
 
 
 def _identity(expr: n.Op, name: str, left: n.Expr, right: n.Expr) -> n.Expr:
-    """x + 0, x * 1, b AND TRUE and their like; not of REAL, where x + 0.0 is not always x."""
+    """x + 0, x * 1, b AND TRUE and their like; not of real numbers, where x + 0.0 is not always x."""
     if isinstance(left, n.Const) and name in ("add", "mul", "and", "or", "xor"):
         left, right = right, left
-    if not isinstance(right, n.Const) or not isinstance(left.type, ty.ElementaryType) or left.type.in_objects:
+    if not isinstance(right, n.Const) or not isinstance(left.type, ty.ElementaryType) or not left.type.is_whole:
         return expr
     value = right.number
     if (value == 0 and name in ("add", "sub", "or", "xor", "shl", "shr")) or (value == 1 and name in ("mul", "div")):

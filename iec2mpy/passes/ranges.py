@@ -234,6 +234,8 @@ def _without(found: Bounds, value: int) -> Bounds:
 def _simplifier(facts: _Facts) -> Callable[[n.Expr], n.Expr]:
     def simplify(expr: n.Expr) -> n.Expr:
         match expr:
+            case n.Wrap(operand, ty.ElementaryType() as to) if operand.type.in_objects or to.in_objects:
+                return n.Wrap(_unwrapped(operand, to.bits), to)
             case n.Wrap(operand, ty.ElementaryType() as to):
                 return _wrap(operand, to, facts)
             case n.Op(name, left, right) if name in _MIRRORED and _is_integer(left):
@@ -281,12 +283,17 @@ def _retyped(expr: n.Expr, to: ty.ElementaryType) -> n.Expr:
 def _unwrapped(expr: n.Expr, bits: int) -> n.Expr:
     """The expression without inner wrap-arounds of at least as many bits: modulo 2^bits that is the same."""
     match expr:
-        case n.Wrap(operand, ty.ElementaryType() as inner) if inner.bits >= bits and _is_integer(operand):
+        case n.Wrap(operand, ty.ElementaryType() as inner) if inner.bits >= bits and _lives_with(operand, inner):
             return _unwrapped(operand, bits)
         case n.Op(name, left, right) if name in n.ARITHMETIC:
             return n.Op(name, _unwrapped(left, bits), _unwrapped(right, bits), expr.type)
         case _:
             return expr
+
+
+def _lives_with(operand: n.Expr, t: ty.ElementaryType) -> bool:
+    """Whether the operand, an integer, lives in the same array as values of the type."""
+    return operand.type.in_objects == t.in_objects
 
 
 def _decided(expr: n.Op, name: str, left: Bounds, right: Bounds) -> n.Expr:

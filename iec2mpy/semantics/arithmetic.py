@@ -2,7 +2,7 @@
 
 Pure functions, in one place: the checker folds constants with them, the optimiser does, and tests take them as the
 model that generated code is compared to. Integers wrap to the width of their type after each operation; REAL is single
-precision; an operation that stops the controller at run time raises `ArithmeticFault` here.
+precision, LREAL double; an operation that stops the controller at run time raises `ArithmeticFault` here.
 """
 
 from __future__ import annotations
@@ -11,9 +11,22 @@ import math
 import operator
 import struct
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 
 from iec2mpy.semantics.typed import Scalar
-from iec2mpy.semantics.types import CHAR, DWORD, REAL, TIME, WCHAR, ElementaryType, Kind, StringType
+from iec2mpy.semantics.types import (
+    CHAR,
+    DWORD,
+    LREAL,
+    LTIME,
+    LWORD,
+    REAL,
+    TIME,
+    WCHAR,
+    ElementaryType,
+    Kind,
+    StringType,
+)
 
 SingleType = ElementaryType | StringType
 """The type of a single value: enumerations, subranges and aliases are reduced to it by `types.value_type`."""
@@ -44,6 +57,11 @@ def to_single(value: float) -> float:
         return math.copysign(math.inf, value)
 
 
+def to_precision(value: float, of: ElementaryType) -> float:
+    """The nearest number that a REAL or LREAL can be."""
+    return to_single(value) if of is REAL else value
+
+
 def truncating_divide(dividend: int, divisor: int) -> int:
     """Integer division that rounds towards zero (table 29, 4); raises `ArithmeticFault` for a divisor of 0."""
     if divisor == 0:
@@ -60,10 +78,10 @@ def modulo(dividend: int, divisor: int) -> int:
 # ---------------------------------------------------------------------------------------------- operators
 
 
-def _single(function: Callable[..., float], *arguments: float) -> float:
-    """The single-precision result; an argument outside of the function's domain faults, overflow gives infinity."""
+def _real(of: ElementaryType, function: Callable[..., float], *arguments: float) -> float:
+    """The result as a REAL or LREAL; an argument outside of the function's domain faults, overflow gives infinity."""
     try:
-        return to_single(function(*arguments))
+        return to_precision(function(*arguments), of)
     except OverflowError:
         return math.inf
     except ValueError:
@@ -77,7 +95,7 @@ def _divide_real(dividend: float, divisor: float) -> float:
 
 
 def _power(base: float, exponent: float) -> float:
-    """`base ** exponent`. The sign of an overflow is that of the true result, which `_single` cannot know."""
+    """`base ** exponent`. The sign of an overflow is that of the true result, which `_real` cannot know."""
     try:
         return math.pow(base, exponent)
     except OverflowError:
@@ -113,18 +131,33 @@ COMPARISONS = frozenset(_COMPARE)
 
 
 def binary(name: str, left: Scalar, right: Scalar, left_type: SingleType, right_type: SingleType) -> Scalar:
-    """`left name right`; both have one type, except for TIME * number and TIME / number. A comparison gives 0 or 1."""
+    """`left name right`; both have one type, except for a duration * or / a number. A comparison gives 0 or 1."""
     if name in _COMPARE:
         # strings compare by the codes of their characters, the shorter one first (6.6.2.5.10)
         return int(_COMPARE[name](left, right))
     assert isinstance(left_type, ElementaryType)
-    if left_type is REAL:
-        return _single(_REAL[name], float(left), float(right))
-    if left_type is TIME and right_type is REAL:
-        product = _single(_REAL[name], to_single(float(left)), float(right))
-        return _round_to(product, TIME)
+    if left_type.kind is Kind.REAL:
+        return _real(left_type, _REAL[name], float(left), float(right))
+    if isinstance(right_type, ElementaryType) and right_type.kind is Kind.REAL:
+        return _scaled_duration(name, int(left), float(right), left_type, right_type)
     assert isinstance(left, int) and isinstance(right, int)
     return wrap(_INTEGER[name](left, right), left_type)
+
+
+def _scaled_duration(name: str, duration: int, factor: float, of: ElementaryType, factor_type: ElementaryType) -> int:
+    """A TIME is calculated with as a number of the factor's type. An LTIME, whose nanoseconds that type could not hold,
+    is scaled exactly, and rounded once."""
+    if of is TIME:
+        product = _real(factor_type, _REAL[name], to_precision(float(duration), factor_type), factor)
+        return _round_to(product, TIME)
+    if name == "/" and factor == 0:
+        raise ArithmeticFault("zero")
+    if math.isinf(factor) and name == "/":
+        return 0
+    if not math.isfinite(factor):
+        raise ArithmeticFault("range")
+    exact = Fraction(duration) * Fraction(factor) if name == "*" else Fraction(duration) / Fraction(factor)
+    return _in_range(round(exact), of)
 
 
 def bitwise(name: str, left: int, right: int) -> int:
@@ -133,9 +166,9 @@ def bitwise(name: str, left: int, right: int) -> int:
 
 
 def unary(name: str, operand: Scalar, of: SingleType) -> Scalar:
-    """`-operand` of a number or a TIME, `NOT operand` of a bit string."""
+    """`-operand` of a number or a duration, `NOT operand` of a bit string."""
     assert isinstance(of, ElementaryType)
-    if of is REAL:
+    if of.kind is Kind.REAL:
         return -float(operand)
     assert isinstance(operand, int)
     return wrap(-operand if name == "-" else ~operand, of)
@@ -151,7 +184,7 @@ def _in_range(value: int, to: ElementaryType) -> int:
 
 
 def _round_to(value: float, to: ElementaryType, truncate: bool = False) -> int:
-    """A REAL as an integer: half to even (6.6.2.5.3), or towards zero."""
+    """A real number as an integer: half to even (6.6.2.5.3), or towards zero."""
     if not math.isfinite(value):
         raise ArithmeticFault("range")
     return _in_range(int(value) if truncate else round(value), to)
@@ -193,12 +226,32 @@ def _is_bits(of: ElementaryType) -> bool:
     return of.kind in (Kind.BOOL, Kind.BITS)
 
 
+_PATTERNS: Mapping[tuple[ElementaryType, ElementaryType], tuple[str, str]] = {
+    (REAL, DWORD): ("<f", "<I"),
+    (DWORD, REAL): ("<I", "<f"),
+    (LREAL, LWORD): ("<d", "<Q"),
+    (LWORD, LREAL): ("<Q", "<d"),
+}
+"""What exchanges its bits, and how `struct` packs and unpacks them."""
+NANOSECONDS = 1_000_000
+"""In a millisecond: of LTIME in a unit of TIME."""
+
+
+def _narrowed(value: float, to: ElementaryType) -> float:
+    """A REAL or LREAL as the other; a number that is too large for REAL faults."""
+    result = to_precision(value, to)
+    if math.isinf(result) and math.isfinite(value):
+        raise ArithmeticFault("range")
+    return result
+
+
 def convert(value: Scalar, source: SingleType, to: SingleType, truncate: bool = False) -> Scalar:
     """A value of type `source` as one of type `to` (table 22).
 
     Numbers keep their value or fault `range`; from and to bit strings the low bits are kept, without sign extension
-    (6.6.2.5.5); REAL and DWORD exchange bit patterns; TIME counts as its milliseconds, a character as its code;
-    a string is cut to its length.
+    (6.6.2.5.5); REAL and DWORD, LREAL and LWORD exchange bit patterns; TIME counts as its milliseconds, LTIME as its
+    nanoseconds, but to each other they keep the duration, cut to milliseconds; a character counts as its code; a string
+    is cut to its length.
     """
     if isinstance(to, StringType):
         return _to_text(value, source, to)[: to.length]
@@ -208,13 +261,19 @@ def convert(value: Scalar, source: SingleType, to: SingleType, truncate: bool = 
         return _from_text(str(value), to)
     if source is to:
         return value
-    if source is REAL:
-        if to is DWORD:
-            return struct.unpack("<I", struct.pack("<f", value))[0]
+    if (source, to) in _PATTERNS:
+        number, bits = _PATTERNS[source, to]
+        return struct.unpack(bits, struct.pack(number, value))[0]
+    if source.kind is Kind.REAL:
+        if to.kind is Kind.REAL:
+            return _narrowed(float(value), to)
         return _round_to(float(value), to, truncate)
     assert isinstance(value, int)
-    if to is REAL:
-        return struct.unpack("<f", struct.pack("<I", value))[0] if source is DWORD else to_single(float(value))
+    if to.kind is Kind.REAL:
+        return to_precision(float(value), to)
+    if source.kind is Kind.DURATION and to.kind is Kind.DURATION:
+        value = value * NANOSECONDS if to is LTIME else truncating_divide(value, NANOSECONDS)
+        return _in_range(value, to)
     if source is WCHAR and to is CHAR:
         return value if value <= CHAR.high else ord(_UNKNOWN_CHARACTER)
     if _is_bits(source) or _is_bits(to):
@@ -349,7 +408,8 @@ def builtin(name: str, arguments: Sequence[Scalar], result: SingleType) -> Scala
         value = _STRING_FUNCTIONS[name](*arguments)
         return value[: result.length] if isinstance(value, str) and isinstance(result, StringType) else value
     if name in _REAL_FUNCTIONS:
-        return _single(_REAL_FUNCTIONS[name], *map(float, arguments))
+        assert isinstance(result, ElementaryType)
+        return _real(result, _REAL_FUNCTIONS[name], *map(float, arguments))
     assert isinstance(result, ElementaryType)
     value = arguments[0]
     if name == "ABS":

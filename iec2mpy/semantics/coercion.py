@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from iec2mpy.semantics import arithmetic
 from iec2mpy.semantics.conversions import (
     BIT_KINDS,
@@ -20,8 +22,8 @@ from iec2mpy.semantics.scope import UNKNOWN, Scope
 from iec2mpy.semantics.typed import Constant, Convert, Expr
 from iec2mpy.semantics.types import (
     BOOL,
+    LREAL,
     REAL,
-    TIME,
     ArrayType,
     BlockType,
     ElementaryType,
@@ -76,11 +78,12 @@ def convert(value: Expr, target: Type) -> Expr:
 
 
 def typed_literal(scope: Scope, value: Expr) -> Expr | None:
-    """`value`, with the type that a literal has where its context gives it none: INT, DINT or UDINT, or REAL."""
+    """`value`, with the type that a literal has where its context gives it none: the first of INT, DINT, UDINT, LINT
+    and ULINT that holds it; REAL, or LREAL where it is too large for that."""
     if not isinstance(value, Constant) or not is_untyped(value.type):
         return value
     if value.type is UNTYPED_REAL:
-        return coerce(scope, value, REAL)
+        return coerce(scope, value, REAL if fits_literal(value, REAL) else LREAL)
     t = literal_type(int(value.value))
     if t is None:
         scope.diagnostics.add("E0501", f"{value.value} is too large for every integer type.", value.span)
@@ -91,19 +94,32 @@ def typed_literal(scope: Scope, value: Expr) -> Expr | None:
 def fits_literal(value: Constant, target: Type) -> bool:
     """Whether an untyped literal can be one of the type `target`."""
     t = base_type(target)
-    if value.type is UNTYPED_REAL:
-        return t is REAL
-    return t is REAL or (
-        isinstance(t, ElementaryType) and t.kind in INTEGER_KINDS | BIT_KINDS and t.low <= int(value.value) <= t.high
-    )
+    if not isinstance(t, ElementaryType):
+        return False
+    if t.kind is Kind.REAL:
+        return math.isfinite(arithmetic.to_precision(_number(value), t))
+    integral = value.type is UNTYPED_INT and t.kind in INTEGER_KINDS | BIT_KINDS
+    return integral and t.low <= int(value.value) <= t.high
+
+
+def _number(value: Constant) -> float:
+    """The number of a literal; infinity where it is too large even for LREAL."""
+    try:
+        return float(value.value)
+    except OverflowError:
+        return math.inf
 
 
 def _literal(scope: Scope, value: Constant, target: Type, code: str, needs: str | None) -> Expr | None:
     t = base_type(target)
     if fits_literal(value, t):
         assert isinstance(t, ElementaryType)
-        stored = arithmetic.to_single(float(value.value)) if t is REAL else int(value.value)
+        stored = arithmetic.to_precision(_number(value), t) if t.kind is Kind.REAL else int(value.value)
         return _in_subrange(scope, Constant(stored, t, value.span), target)
+    if isinstance(t, ElementaryType) and t.kind is Kind.REAL:
+        largest = "REAL holds numbers up to 3.4E38." if t is REAL else "LREAL holds numbers up to 1.7E308."
+        scope.diagnostics.add("E0501", f"This number is too large for {t}.", value.span, largest)
+        return None
     if value.type is UNTYPED_INT and is_integer(t):
         assert isinstance(t, ElementaryType)
         wider = literal_type(int(value.value))
@@ -151,7 +167,7 @@ def _mismatch_hint(value: Expr, target: Type) -> str | None:
         return f"Write {shown(value.span)}^ for what it refers to."
     if isinstance(to, RefType) and same_type(source, to.target):
         return f"Write REF({shown(value.span)})."
-    if to is TIME and is_number(source):
+    if isinstance(to, ElementaryType) and to.kind is Kind.DURATION and is_number(source):
         return "Write a duration such as T#500ms, or multiply T#1ms by the number."
     if to is BOOL and is_number(source):
         return (

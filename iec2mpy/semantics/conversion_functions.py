@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from iec2mpy.semantics import arithmetic, expressions, loose, operators, standard_calls
 from iec2mpy.semantics.coercion import coerce, describe, typed_literal
-from iec2mpy.semantics.conversions import converts_explicitly, is_integer, type_named
+from iec2mpy.semantics.conversions import converts_explicitly, is_integer, is_real, type_named
 from iec2mpy.semantics.scope import Scope
 from iec2mpy.semantics.signatures import Parameter, Signature
 from iec2mpy.semantics.typed import Constant, Convert, Expr
@@ -43,7 +43,7 @@ def parse(name: str) -> Conversion | None:
     truncate = match[2] == "TRUNC"
     if target is None or (match[1] and source is None):
         return None
-    if truncate and (source not in (None, REAL) or not is_integer(target)):
+    if truncate and (not (source is None or is_real(source)) or not is_integer(target)):
         return None
     return Conversion(name, source, target, truncate)
 
@@ -65,7 +65,9 @@ def check(
     value = expressions.check(scope, given[0], conversion.source)
     if value is None:
         return None
-    source = REAL if conversion.truncate else conversion.source
+    source = conversion.source
+    if source is None and conversion.truncate and not is_real(value.type):
+        source = REAL  # the input is ANY_REAL (table 22)
     if source is not None:
         value = coerce(scope, value, source, "E0312", f"The input of {conversion.name} is {source}")
     else:

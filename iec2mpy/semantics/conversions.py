@@ -11,12 +11,17 @@ from iec2mpy.semantics.types import (
     DWORD,
     ELEMENTARY,
     INT,
+    LINT,
+    LREAL,
+    LTIME,
+    LWORD,
     NULL_TYPE,
     REAL,
     SINT,
     TIME,
     UDINT,
     UINT,
+    ULINT,
     USINT,
     WORD,
     ArrayType,
@@ -36,13 +41,18 @@ UNTYPED_REAL = ElementaryType("real literal", Kind.REAL, 0, 0, 0)
 only, and never in a checked program."""
 
 _WIDER: Mapping[ElementaryType, tuple[ElementaryType, ...]] = {
-    SINT: (INT, DINT, REAL),
-    INT: (DINT, REAL),
-    USINT: (UINT, INT, UDINT, DINT, REAL),
-    UINT: (UDINT, DINT, REAL),
-    BOOL: (BYTE, WORD, DWORD),
-    BYTE: (WORD, DWORD),
-    WORD: (DWORD,),
+    SINT: (INT, DINT, LINT, REAL, LREAL),
+    INT: (DINT, LINT, REAL, LREAL),
+    DINT: (LINT, LREAL),
+    USINT: (UINT, INT, UDINT, DINT, ULINT, LINT, REAL, LREAL),
+    UINT: (UDINT, DINT, ULINT, LINT, REAL, LREAL),
+    UDINT: (ULINT, LINT, LREAL),
+    REAL: (LREAL,),
+    BOOL: (BYTE, WORD, DWORD, LWORD),
+    BYTE: (WORD, DWORD, LWORD),
+    WORD: (DWORD, LWORD),
+    DWORD: (LWORD,),
+    TIME: (LTIME,),
 }
 """Figure 12: the conversions that keep every value; the nearest types first."""
 
@@ -59,6 +69,12 @@ def is_integer(t: Type) -> bool:
     """Whether a value of the type is an integer number (ANY_INT), subranges and named values included."""
     t = base_type(t)
     return isinstance(t, ElementaryType) and t.kind in INTEGER_KINDS
+
+
+def is_real(t: Type) -> bool:
+    """Whether a value of the type is a real number (ANY_REAL), an untyped one included."""
+    t = base_type(t)
+    return isinstance(t, ElementaryType) and t.kind is Kind.REAL
 
 
 def same_type(a: Type, b: Type) -> bool:
@@ -109,10 +125,10 @@ def joined_type(a: Type, b: Type) -> Type | None:
 
 def literal_type(value: int) -> ElementaryType | None:
     """The type of an integer literal that no context gives one, or None where no type holds it."""
-    return next((t for t in (INT, DINT, UDINT) if t.low <= value <= t.high), None)
+    return next((t for t in (INT, DINT, UDINT, LINT, ULINT) if t.low <= value <= t.high), None)
 
 
-_DIRECT_PATTERN = {(REAL, DWORD), (DWORD, REAL)}
+_DIRECT_PATTERN = {(REAL, DWORD), (DWORD, REAL), (LREAL, LWORD), (LWORD, LREAL)}
 
 
 def converts_explicitly(source: ElementaryType | StringType, target: ElementaryType | StringType) -> bool:
@@ -128,10 +144,11 @@ def converts_explicitly(source: ElementaryType | StringType, target: ElementaryT
         # a character counts as its code, which is a number or bits
         other = target if source.kind is Kind.CHARACTER else source
         return other.kind in INTEGER_KINDS | {Kind.BITS, Kind.CHARACTER}
-    # A REAL has no bits to cut or to fill: only DWORD has its width. BOOL counts as the number 0 or 1.
-    if REAL in (source, target):
-        other = target if source is REAL else source
-        return other.kind in INTEGER_KINDS or other is TIME or (other is BOOL and target is REAL)
+    # A REAL has no bits to cut or to fill: only DWORD has its width, as LWORD that of an LREAL. BOOL counts as 0 or 1.
+    if Kind.REAL in (source.kind, target.kind):
+        other = target if source.kind is Kind.REAL else source
+        numbers = NUMBER_KINDS | {Kind.DURATION}
+        return other.kind in numbers or (other is BOOL and target.kind is Kind.REAL)
     return True
 
 

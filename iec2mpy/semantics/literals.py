@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-from iec2mpy.semantics.arithmetic import to_single, truncating_divide
+from iec2mpy.semantics.arithmetic import NANOSECONDS, to_precision, truncating_divide
 from iec2mpy.semantics.conversions import UNTYPED_INT, UNTYPED_REAL, type_named
 from iec2mpy.semantics.scope import Scope
 from iec2mpy.semantics.typed import Constant
 from iec2mpy.semantics.types import (
     BOOL,
+    LREAL,
+    LTIME,
     NOT_YET,
     NULL_TYPE,
     REAL,
@@ -23,8 +25,6 @@ from iec2mpy.semantics.types import (
 )
 from iec2mpy.syntax import tree
 
-_NANOSECONDS = 1_000_000
-"""In a millisecond, the unit of TIME."""
 _DATES = {"date": "Dates", "tod": "Times of day", "dt": "Dates with a time"}
 
 
@@ -37,9 +37,8 @@ def literal(scope: Scope, expr: tree.Literal, expected: Type | None) -> Constant
         verb = "is" if prefix in NOT_YET else "are"
         scope.diagnostics.add("E0914", f"{what} {verb} not supported yet.", expr.span)
         return None
-    if prefix in NOT_YET or prefix == "LT":
-        name = "LTIME" if prefix == "LT" else prefix
-        scope.diagnostics.add("E0914", f"The type {name} is not supported yet.", expr.span)
+    if prefix in NOT_YET:
+        scope.diagnostics.add("E0914", f"The type {prefix} is not supported yet.", expr.span)
         return None
     if expr.kind in ("string", "wstring"):
         return _text(scope, expr, prefix, expected)
@@ -55,7 +54,7 @@ def _integer(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
     if not isinstance(t, ElementaryType) or t.kind is Kind.DURATION:
         _no_such_literal(scope, expr, prefix)
         return None
-    if t is REAL:
+    if t.kind is Kind.REAL:
         return _real(scope, expr, prefix)
     if t.low <= value <= t.high:
         return Constant(value, t, expr.span)
@@ -65,21 +64,21 @@ def _integer(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
 
 def _real(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
     assert isinstance(expr.value, (int, float))
-    try:
-        single = to_single(float(expr.value))
-    except OverflowError:
-        single = math.inf
-    if not math.isfinite(single):
-        scope.diagnostics.add(
-            "E0501", "This number is too large for REAL.", expr.span, "REAL holds numbers up to 3.4E38."
-        )
-        return None
-    if not prefix:
-        return Constant(expr.value, UNTYPED_REAL, expr.span)
-    if prefix != REAL.name:
+    t = {"": LREAL, "REAL": REAL, "LREAL": LREAL}.get(prefix)
+    if t is None:
         _no_such_literal(scope, expr, prefix)
         return None
-    return Constant(single, REAL, expr.span)
+    try:
+        value = to_precision(float(expr.value), t)
+    except OverflowError:
+        value = math.inf
+    if not math.isfinite(value):
+        largest = "3.4E38" if t is REAL else "1.7E308"
+        scope.diagnostics.add(
+            "E0501", f"This number is too large for {t}.", expr.span, f"{t} holds numbers up to {largest}."
+        )
+        return None
+    return Constant(value, t, expr.span) if prefix else Constant(expr.value, UNTYPED_REAL, expr.span)
 
 
 def _bool(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
@@ -106,17 +105,19 @@ def _text(scope: Scope, expr: tree.Literal, prefix: str, expected: Type | None) 
     return Constant(text, t, expr.span)
 
 
+_LONGEST = {
+    TIME: "TIME holds up to T#24d20h31m23s647ms, about 24.8 days; LTIME, written LT#, holds 292 years.",
+    LTIME: "LTIME holds up to 292 years.",
+}
+
+
 def _duration(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
     assert isinstance(expr.value, int)
-    value = truncating_divide(expr.value, _NANOSECONDS)
-    if TIME.low <= value <= TIME.high:
-        return Constant(value, TIME, expr.span)
-    scope.diagnostics.add(
-        "E0501",
-        "This duration is too long for TIME.",
-        expr.span,
-        "TIME holds up to T#24d20h31m23s647ms, about 24.8 days.",
-    )
+    t = LTIME if prefix in ("LT", "LTIME") else TIME
+    value = expr.value if t is LTIME else truncating_divide(expr.value, NANOSECONDS)
+    if t.low <= value <= t.high:
+        return Constant(value, t, expr.span)
+    scope.diagnostics.add("E0501", f"This duration is too long for {t}.", expr.span, _LONGEST[t])
     return None
 
 

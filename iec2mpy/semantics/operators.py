@@ -22,8 +22,8 @@ from iec2mpy.semantics.scope import Scope
 from iec2mpy.semantics.typed import Binary, Constant, Convert, Expr, Scalar, Unary
 from iec2mpy.semantics.types import (
     BOOL,
+    LREAL,
     REAL,
-    TIME,
     BlockType,
     ElementaryType,
     EnumType,
@@ -37,6 +37,7 @@ from iec2mpy.source.dialects import with_dialects
 from iec2mpy.source.spans import Span
 
 _ALL_KINDS = frozenset(Kind)
+_DURATION = frozenset((Kind.DURATION,))
 _TAKES: Mapping[str, frozenset[Kind]] = {
     "+": NUMBER_KINDS | {Kind.DURATION},
     "-": NUMBER_KINDS | {Kind.DURATION},
@@ -55,7 +56,7 @@ _NEEDS = {
     "*": "numbers",
     "/": "numbers",
     "MOD": "integers",
-    "**": "REAL numbers",
+    "**": "REAL or LREAL numbers",
     "AND": "BOOL or bit strings",
     "OR": "BOOL or bit strings",
     "XOR": "BOOL or bit strings",
@@ -72,9 +73,9 @@ def binary(scope: Scope, operator: str, left: Expr, right: Expr, operator_span: 
         return _short_circuit(scope, operator, left, right, span)
     if isinstance(left, Constant) and isinstance(right, Constant) and is_untyped(left.type) and is_untyped(right.type):
         return _untyped(scope, operator, left, right, span)
-    if operator in ("*", "/") and base_type(left.type) is TIME and is_number(right.type):
+    if operator in ("*", "/") and _is_kind(left.type, _DURATION) and is_number(right.type):
         number = typed_literal(scope, right)
-        return number and _node(scope, operator, left, number, TIME, span)
+        return number and _node(scope, operator, left, number, base_type(left.type), span)
     if operator == "**":
         return _power(scope, left, right, operator_span, span)
     pair = _paired(scope, operator, _operand(operator, left), _operand(operator, right), operator_span, span)
@@ -245,7 +246,7 @@ def _different(scope: Scope, operator: str, left: Expr, right: Expr, operator_sp
     hint = None
     if name := conversion_name(a, b) or conversion_name(b, a):
         hint = f"Convert one of them, for example with {name}."
-    if TIME in (base_type(a), base_type(b)):
+    if _is_kind(a, _DURATION) or _is_kind(b, _DURATION):
         hint = "A duration goes with durations: write T#5s and its like. It can be multiplied and divided by a number."
     scope.diagnostics.add("E0303", f"`{operator}` cannot join {describe(a)} and {describe(b)}.", operator_span, hint)
 
@@ -254,11 +255,12 @@ def _different(scope: Scope, operator: str, left: Expr, right: Expr, operator_sp
 
 
 def _power(scope: Scope, left: Expr, right: Expr, operator_span: Span, span: Span) -> Expr | None:
-    """EXPT (table 29, 6): the base is a REAL, the exponent any number; both are calculated with as REAL."""
+    """EXPT (table 29, 6): the base is a REAL or LREAL, the exponent any number; it is calculated with in that type."""
     base, exponent = typed_literal(scope, left), typed_literal(scope, right)
     if base is None or exponent is None:
         return None
-    if not _is_kind(base.type, NUMBER_KINDS) or (common_type(_elementary(base), REAL) is None):
+    t = common_type(_elementary(base), REAL) if _is_kind(base.type, NUMBER_KINDS) else None
+    if t is None:
         _wrong_operand(scope, "**", base)
         return None
     if not _is_kind(exponent.type, NUMBER_KINDS):
@@ -266,10 +268,13 @@ def _power(scope: Scope, left: Expr, right: Expr, operator_span: Span, span: Spa
             "E0302", f"An exponent must be a number, but this is {describe(exponent.type)}.", exponent.span
         )
         return None
-    base = convert(base, REAL)
-    if base_type(exponent.type) is not REAL:
-        exponent = _to_real(exponent)
-    return _node(scope, "**", base, exponent, REAL, span)
+    exponent_type = _elementary(exponent)
+    if LREAL in (t, exponent_type):
+        t = LREAL
+    base = convert(base, t)
+    if exponent_type is not t:
+        exponent = _to_real(exponent, t)
+    return _node(scope, "**", base, exponent, t, span)
 
 
 def _elementary(value: Expr) -> ElementaryType:
@@ -278,10 +283,10 @@ def _elementary(value: Expr) -> ElementaryType:
     return t
 
 
-def _to_real(value: Expr) -> Expr:
+def _to_real(value: Expr, t: ElementaryType) -> Expr:
     if isinstance(value, Constant):
-        return Constant(arithmetic.to_single(float(value.value)), REAL, value.span)
-    return Convert(value, REAL, value.span)
+        return Constant(arithmetic.to_precision(float(value.value), t), t, value.span)
+    return Convert(value, t, value.span)
 
 
 _EXACT: Mapping[str, Callable[..., int | float]] = {

@@ -15,7 +15,7 @@ from iec2mpy.syntax.tree import Edge, PouKind, Section
 
 Scalar = int | float | str
 """A value as it is stored: BOOL 0 or 1, integers, bit strings and enumerations their (mathematical) number, TIME
-milliseconds, CHAR and WCHAR their code, REAL float, STRING and WSTRING str, NULL 0."""
+milliseconds, LTIME nanoseconds, CHAR and WCHAR their code, REAL and LREAL float, STRING and WSTRING str, NULL 0."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -270,7 +270,7 @@ class Unary:
 
 @dataclass(frozen=True, slots=True)
 class Binary:
-    """Both operands have the same base type, except for TIME * number and TIME / number, where `left` is the TIME.
+    """Both operands have the same base type, except for a duration * or / a number, where `left` is the duration.
 
     `operator`: + - * / MOD ** AND OR XOR = <> < > <= >=; `type` is BOOL for comparisons. Strings may differ in length.
     """

@@ -43,6 +43,16 @@ class ElementaryType:
         """Whether a value lives in `O` (a Python object) and not in `V` (a 32-bit slot)."""
         return self.kind is Kind.REAL or self.bits > 32
 
+    @property
+    def is_real(self) -> bool:
+        """Whether a value is stored as a float."""
+        return self.kind is Kind.REAL
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether a value is stored as an integer, in V or (a wide one) in O."""
+        return self.kind is not Kind.REAL
+
     def __str__(self) -> str:
         return self.name
 
@@ -59,14 +69,19 @@ BOOL = _unsigned("BOOL", 1, Kind.BOOL)
 SINT = _signed("SINT", 8)
 INT = _signed("INT", 16)
 DINT = _signed("DINT", 32)
+LINT = _signed("LINT", 64)
 USINT = _unsigned("USINT", 8, Kind.UNSIGNED)
 UINT = _unsigned("UINT", 16, Kind.UNSIGNED)
 UDINT = _unsigned("UDINT", 32, Kind.UNSIGNED)
+ULINT = _unsigned("ULINT", 64, Kind.UNSIGNED)
 BYTE = _unsigned("BYTE", 8, Kind.BITS)
 WORD = _unsigned("WORD", 16, Kind.BITS)
 DWORD = _unsigned("DWORD", 32, Kind.BITS)
+LWORD = _unsigned("LWORD", 64, Kind.BITS)
 REAL = ElementaryType("REAL", Kind.REAL, 32, 0, 0)
+LREAL = ElementaryType("LREAL", Kind.REAL, 64, 0, 0)
 TIME = _signed("TIME", 32, Kind.DURATION)  # milliseconds
+LTIME = _signed("LTIME", 64, Kind.DURATION)  # nanoseconds
 CHAR = _unsigned("CHAR", 8, Kind.CHARACTER)  # the character's code
 WCHAR = _unsigned("WCHAR", 16, Kind.CHARACTER)
 
@@ -78,17 +93,16 @@ REFERENCE = _unsigned("reference", 30, Kind.REFERENCE)
 No variable is declared so."""
 
 ELEMENTARY: Mapping[str, ElementaryType] = {
-    t.name: t for t in (BOOL, SINT, INT, DINT, USINT, UINT, UDINT, BYTE, WORD, DWORD, REAL, TIME, CHAR, WCHAR)
+    t.name: t
+    for t in (
+        *(BOOL, SINT, INT, DINT, LINT, USINT, UINT, UDINT, ULINT, BYTE, WORD, DWORD, LWORD),
+        *(REAL, LREAL, TIME, LTIME, CHAR, WCHAR),
+    )
 }
 """By name, in capitals. STRING and WSTRING have a length, and are `StringType`."""
 
 NOT_YET = frozenset(
     [
-        "LINT",
-        "ULINT",
-        "LWORD",
-        "LREAL",
-        "LTIME",
         "DATE",
         "LDATE",
         "TOD",
@@ -255,12 +269,12 @@ def value_type(t: Type) -> ElementaryType | StringType | None:
 
 
 def value_range(t: Type) -> tuple[int, int] | None:
-    """Lowest and highest value of what is stored as an integer in V, or None for everything else."""
+    """Lowest and highest value of what is stored as an integer, or None for everything else."""
     t = unaliased(t)
     if isinstance(t, SubrangeType):
         return t.low, t.high
     stored = value_type(t)
-    if isinstance(stored, ElementaryType) and not stored.in_objects:
+    if isinstance(stored, ElementaryType) and stored.is_whole:
         return stored.low, stored.high
     return None
 

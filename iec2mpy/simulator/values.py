@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 
 from iec2mpy.backends.memory_map import BadValue, Leaf, MemoryMap, Node
 
-_AS_WRITTEN = ("string", "wstring", "character", "enum", "duration", "reference")
+_AS_WRITTEN = ("string", "wstring", "character", "enum", "duration", "ltime", "reference")
 
 REAL_TOLERANCE = 1e-5
 """REAL values are compared to 1 part in 100,000."""

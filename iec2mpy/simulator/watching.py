@@ -7,10 +7,12 @@ from dataclasses import dataclass
 
 from iec2mpy.backends.coding import parse_duration
 from iec2mpy.backends.memory_map import Leaf, MemoryMap
+from iec2mpy.semantics.arithmetic import NANOSECONDS
 from iec2mpy.simulator.session import Simulation
 from iec2mpy.simulator.trace import Column, Number
 
-_DRAWN = {"bool": "bool", "integer": "number", "unsigned32": "number", "real": "number", "duration": "number"}
+_NUMBERS = ("integer", "unsigned32", "integer64", "real", "lreal", "duration", "ltime")
+_DRAWN = {"bool": "bool", **dict.fromkeys(_NUMBERS, "number")}
 """How a kind of variable is drawn; all others are texts."""
 
 
@@ -55,15 +57,21 @@ def _address_key(address: str) -> tuple[str, list[int]]:
 
 
 def values(simulation: Simulation, watched: Sequence[Watched]) -> list[object]:
-    """Their values as they are shown: a TIME as `T#…`, an enumeration by its name."""
+    """Their values as they are shown: a duration as `T#…` or `LT#…`, an enumeration by its name."""
     return simulation.get_leaves([w.leaf for w in watched])
 
 
 def numbers(watched: Sequence[Watched], shown: Sequence[object]) -> list[Number | str]:
-    """The same values for a trace: a TIME in milliseconds."""
+    """The same values for a trace: a duration in milliseconds."""
     return [_number(w, value) for w, value in zip(watched, shown, strict=True)]
 
 
 def _number(watched: Watched, shown: object) -> Number | str:
     assert isinstance(shown, (bool, int, float, str))
-    return parse_duration(str(shown)) if watched.leaf.variable.kind == "duration" else shown
+    match watched.leaf.variable.kind:
+        case "duration":
+            return parse_duration(str(shown)) // NANOSECONDS
+        case "ltime":
+            return parse_duration(str(shown)) / NANOSECONDS
+        case _:
+            return shown

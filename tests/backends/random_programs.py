@@ -10,8 +10,8 @@ from iec2mpy.semantics import arithmetic
 from iec2mpy.semantics import types as ty
 from iec2mpy.semantics.types import ElementaryType, Kind
 
-INTEGERS = (ty.SINT, ty.INT, ty.DINT, ty.USINT, ty.UINT, ty.UDINT)
-BITS = (ty.BOOL, ty.BYTE, ty.WORD, ty.DWORD)
+INTEGERS = (ty.SINT, ty.INT, ty.DINT, ty.LINT, ty.USINT, ty.UINT, ty.UDINT, ty.ULINT)
+BITS = (ty.BOOL, ty.BYTE, ty.WORD, ty.DWORD, ty.LWORD)
 NUMBERED = (*INTEGERS, *BITS)
 VARIABLES_A_TYPE = 2
 

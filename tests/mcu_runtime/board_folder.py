@@ -49,7 +49,7 @@ main.colour|Colour|V|11|0|1|
 main.trip|BOOL|V|12|0|1|
 main.kept|INT|V|13|0|10|
 main.x|REAL|O|1|||
-main.s|STRING[5]|O|2|0|5|
+main.s|STRING|O|2|0|5|
 @12|src/main.st|7|main
 """.replace("|", "\t")
 

@@ -102,7 +102,7 @@ plc.stop()
     assert said == (
         "ValueError main.kept is a INT: a whole number from 0 to 10\n"
         "ValueError main.colour is one of red, green\n"
-        "ValueError main.s is a STRING[5]: a text of at most 5 characters\n"
+        "ValueError main.s is a STRING: a text of at most 5 characters\n"
         "KeyError there is no variable main.nothing\n"
         "10 red\n"
     )

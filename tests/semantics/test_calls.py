@@ -233,7 +233,7 @@ def test_results_of_strings() -> None:
         ("i : INT;", "i := INT_TO_QINT(i);", "E0207"),
         ("b : BYTE; r : REAL;", "b := TO_BYTE(r);", "E0312"),
         ("s : STRING; r : REAL;", "s := REAL_TO_STRING(r);", "E0916"),
-        ("i : INT; d : INT;", "i := INT_TO_LINT(d);", "E0916"),
+        ("i : INT; d : INT;", "i := INT_TO_LDT(d);", "E0916"),
         ("t : TIME;", "t := __NOW();", "E0105"),
         ("i : INT;", "i := LIMT(0, i, 5);", "E0207"),
     ],

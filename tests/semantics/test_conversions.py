@@ -23,13 +23,18 @@ from iec2mpy.semantics.types import (
 )
 
 IMPLICIT = {
-    "SINT": "INT DINT REAL",
-    "INT": "DINT REAL",
-    "USINT": "UINT INT UDINT DINT REAL",
-    "UINT": "UDINT DINT REAL",
-    "BOOL": "BYTE WORD DWORD",
-    "BYTE": "WORD DWORD",
-    "WORD": "DWORD",
+    "SINT": "INT DINT LINT REAL LREAL",
+    "INT": "DINT LINT REAL LREAL",
+    "DINT": "LINT LREAL",
+    "USINT": "UINT INT UDINT DINT ULINT LINT REAL LREAL",
+    "UINT": "UDINT DINT ULINT LINT REAL LREAL",
+    "UDINT": "ULINT LINT LREAL",
+    "REAL": "LREAL",
+    "BOOL": "BYTE WORD DWORD LWORD",
+    "BYTE": "WORD DWORD LWORD",
+    "WORD": "DWORD LWORD",
+    "DWORD": "LWORD",
+    "TIME": "LTIME",
 }
 
 
@@ -68,8 +73,12 @@ def test_implicit_conversions_of_integers_keep_every_value() -> None:
         ("UINT", "INT", "DINT"),
         ("INT", "REAL", "REAL"),
         ("BYTE", "WORD", "WORD"),
-        ("DINT", "UDINT", None),
-        ("DINT", "REAL", None),
+        ("DINT", "UDINT", "LINT"),
+        ("DINT", "REAL", "LREAL"),
+        ("UINT", "ULINT", "ULINT"),
+        ("TIME", "LTIME", "LTIME"),
+        ("LINT", "ULINT", None),
+        ("LINT", "LREAL", None),
         ("TIME", "INT", None),
         ("BOOL", "INT", None),
     ],

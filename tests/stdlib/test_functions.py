@@ -33,7 +33,7 @@ def test_types_of_signatures_exist(name: str) -> None:
     for text in [*row["inputs"], f"RESULT: {row['result']}"]:
         parameter, t = text.split(": ")
         assert re.fullmatch(r"[A-Z]+\d?", parameter)
-        assert t in DATA["generic"] or t in ("BOOL", "INT", "TIME")
+        assert t in DATA["generic"] or t in ("BOOL", "INT", "TIME", "LTIME")
 
 
 def test_typed_names() -> None:

@@ -45,7 +45,8 @@ def _now(_context: Context, _name: str, _arguments: list[n.Expr], result: n.Valu
 
 
 def _abs(context: Context, name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
-    if result is ty.REAL:
+    assert isinstance(result, ty.ElementaryType)
+    if not result.is_whole:
         return n.Intrinsic(name, tuple(arguments), result)
     value = context.atom(arguments[0])
     zero = n.Const(0, result)
@@ -94,10 +95,9 @@ def _shift(context: Context, name: str, arguments: list[n.Expr], result: n.Value
     assert isinstance(result, ty.ElementaryType)
     width = result.bits
     value = context.atom(value)
-    count = context.atom(count)
-    if isinstance(count.type, ty.ElementaryType) and count.type.low < 0:
-        negative = n.Op("lt", count, n.Const(0, count.type), ty.BOOL)
-        context.emit(n.Guard(negative, "range", context.site))
+    count = _shift_count(context, count, width)
+    if result.in_objects:
+        return n.Op(name.lower(), value, count, result)
     if name in ("ROL", "ROR"):
         places = n.Op("and", count, n.Const(width - 1, count.type), count.type) if width > 1 else n.Const(0, ty.INT)
         if isinstance(places, n.Const) and places.value == 0:
@@ -112,8 +112,25 @@ def _shift(context: Context, name: str, arguments: list[n.Expr], result: n.Value
     return n.Select(fits, moved, n.Const(0, result), result)
 
 
+def _shift_count(context: Context, count: n.Expr, width: int) -> n.Expr:
+    """The count, which is not negative, as an atom in V; one of a wide type is cut so that it means the same."""
+    count = context.atom(count)
+    assert isinstance(count.type, ty.ElementaryType)
+    if count.type.low < 0:
+        negative = n.Op("lt", count, n.Const(0, count.type), ty.BOOL)
+        context.emit(n.Guard(negative, "range", context.site))
+    if not count.type.in_objects:
+        return count
+    # at least the width, and the same modulo the width, which is a power of 2
+    low = n.Op("and", n.Wrap(count, ty.UINT), n.Const(width - 1, ty.UINT), ty.UINT)
+    beyond = n.Op("add", low, n.Const(width, ty.UINT), ty.UINT)
+    fits = n.Op("lt", count, n.Const(width, count.type), ty.BOOL)
+    return context.spill(n.Select(fits, low, beyond, ty.UINT))
+
+
 _LOWERINGS: dict[str, Lowering] = {
     "__NOW": _now,
+    "__NOW_LTIME": _now,
     "ABS": _abs,
     "SEL": _sel,
     "MAX": _extreme,

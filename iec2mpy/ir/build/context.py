@@ -185,4 +185,6 @@ def is_atom(value: n.Expr) -> bool:
     if isinstance(value, n.Load):
         root = value.place.root
         return not isinstance(root, n.Deref) and all(isinstance(step, n.Field) for step in value.place.steps)
-    return isinstance(value, (n.Const, n.Local, n.Now))
+    if isinstance(value, n.Now):
+        return not value.type.in_objects
+    return isinstance(value, (n.Const, n.Local))

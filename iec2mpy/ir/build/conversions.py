@@ -9,6 +9,7 @@ from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build.checks import check_range
 from iec2mpy.ir.build.context import Context
 from iec2mpy.semantics import types as ty
+from iec2mpy.semantics.arithmetic import NANOSECONDS
 from iec2mpy.semantics.types import Kind
 
 _TO_STRING = {
@@ -23,7 +24,14 @@ _TO_STRING = {
 _LONGEST_NUMBER = 30
 """No number, truth value or duration has more characters than that."""
 _BITS = (Kind.BOOL, Kind.BITS)
-_UNSIGNED = {1: ty.BOOL, 8: ty.BYTE, 16: ty.WORD, 32: ty.DWORD}
+_UNSIGNED = {1: ty.BOOL, 8: ty.BYTE, 16: ty.WORD, 32: ty.DWORD, 64: ty.LWORD}
+_PATTERNS = {
+    (ty.REAL, ty.DWORD): "real_to_bits",
+    (ty.DWORD, ty.REAL): "bits_to_real",
+    (ty.LREAL, ty.LWORD): "lreal_to_bits",
+    (ty.LWORD, ty.LREAL): "bits_to_lreal",
+}
+"""What is converted bit by bit: a real number and the bit string of its width (6.6.2.5.5)."""
 _UNKNOWN_CHARACTER = n.Const(ord("?"), ty.CHAR)
 """Stands for a character that CHAR does not have (table 27, 6)."""
 
@@ -37,11 +45,12 @@ def convert(context: Context, value: n.Expr, target: n.ValueType, truncate: bool
         return _to_string(value, target)
     if isinstance(source, ty.StringType):
         return _from_string(context, value, target)
+    if (source, target) in _PATTERNS:
+        return n.Intrinsic(_PATTERNS[source, target], (value,), target)
     if source.kind is Kind.REAL:
         return _from_real(context, value, target, truncate)
     if target.kind is Kind.REAL:
-        # a bit string of the same width is the number's own bits (6.6.2.5.5)
-        return n.Intrinsic("bits_to_real", (value,), target) if source is ty.DWORD else n.ToReal(value, target)
+        return n.ToReal(value, target)
     if target.kind is Kind.BOOL:
         # to BOOL the lowest bit is kept (table 24)
         lowest = n.Op("and", n.Wrap(value, ty.DWORD), n.Const(1, ty.DWORD), ty.DWORD)
@@ -50,22 +59,36 @@ def convert(context: Context, value: n.Expr, target: n.ValueType, truncate: bool
         code = context.atom(value)
         known = n.Op("le", code, n.Const(ty.CHAR.high, source), ty.BOOL)
         return n.Select(known, n.Wrap(code, target), _UNKNOWN_CHARACTER, target)
+    if source.kind is Kind.DURATION and target.kind is Kind.DURATION:
+        return _duration(context, value, target)
     if source.kind in _BITS or target.kind in _BITS:
         # the bits are moved as they are: a sign is not spread
         return n.Wrap(n.Wrap(value, _UNSIGNED[source.bits]), target)
     return n.Wrap(check_range(context, value, target.low, target.high, "range"), target)
 
 
+def _duration(context: Context, value: n.Expr, target: ty.ElementaryType) -> n.Expr:
+    """TIME as LTIME, or LTIME as TIME: cut to milliseconds."""
+    unit = n.Const(NANOSECONDS, ty.LTIME)
+    if target is ty.LTIME:
+        return n.Op("mul", n.Wrap(value, target), unit, target)
+    milliseconds = n.Op("div", value, unit, ty.LTIME)
+    return n.Wrap(check_range(context, milliseconds, target.low, target.high, "range"), target)
+
+
 def real_result(context: Context, value: n.Expr, target: ty.ElementaryType, truncate: bool) -> n.Expr:
-    """A REAL as an integer: rounded half to even or truncated; a value out of range faults."""
+    """A real number as an integer: rounded half to even or truncated; a value out of range faults."""
     context.emit(n.Mark(context.site))
-    bounds = (n.Const(target.low, ty.DINT), n.Const(target.high, ty.DINT))
+    bounds = (n.Const(target.low, target), n.Const(target.high, target))
     return n.Intrinsic("real_trunc" if truncate else "real_to_int", (value, *bounds), target)
 
 
 def _from_real(context: Context, value: n.Expr, target: ty.ElementaryType, truncate: bool) -> n.Expr:
-    if target is ty.DWORD:
-        return n.Intrinsic("real_to_bits", (value,), target)
+    if target is ty.LREAL:
+        return n.ToReal(value, target)
+    if target is ty.REAL:
+        context.emit(n.Mark(context.site))
+        return n.Intrinsic("lreal_to_real", (value,), target)
     return real_result(context, value, target, truncate)
 
 
@@ -89,7 +112,7 @@ def _from_string(context: Context, value: n.Expr, target: ty.ElementaryType) -> 
         return n.Intrinsic("str_to_bool", (value,), target)
     if target.kind is Kind.DURATION:
         return n.Intrinsic("str_to_time", (value,), target)
-    return n.Intrinsic("str_to_int", (value, n.Const(target.low, ty.DINT), n.Const(target.high, ty.DINT)), target)
+    return n.Intrinsic("str_to_int", (value, n.Const(target.low, target), n.Const(target.high, target)), target)
 
 
 def fit_string(value: n.Expr, target: ty.StringType) -> n.Expr:

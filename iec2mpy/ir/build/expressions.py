@@ -229,9 +229,9 @@ def _compared(context: Context, operator: str, left: t.Expr, right: t.Expr) -> n
 def _unary(operator: str, operand: n.Expr) -> n.Expr:
     if operator == "NOT":
         return n.Not(operand, operand.type)
-    if operand.type is ty.REAL:
+    if _is_real(operand.type):
         # 0.0 - x would lose the sign of zero
-        return n.Op("mul", operand, n.Const(-1.0, ty.REAL), ty.REAL)
+        return n.Op("mul", operand, n.Const(-1.0, operand.type), operand.type)
     return n.Wrap(n.Op("sub", n.Const(0, operand.type), operand, operand.type), operand.type)
 
 
@@ -242,20 +242,20 @@ def _binary(context: Context, operator: str, left: n.Expr, right: n.Expr, result
         return n.Op(_BITWISE[operator], left, right, result)
     if operator == "**":
         return power(context, left, right, result)
-    if result is ty.TIME and right.type is not ty.TIME:
-        return _scaled_time(context, operator, left, right)
+    if isinstance(left.type, ty.ElementaryType) and left.type.kind is ty.Kind.DURATION and right.type != left.type:
+        return _scaled_duration(context, operator, left, right)
     if operator == "MOD":
         return _modulo(context, left, right, result)
     if operator == "/":
         return divide(context, left, right, result)
     value = n.Op(_ARITHMETIC[operator], left, right, result)
-    return value if result is ty.REAL else n.Wrap(value, result)
+    return value if _is_real(result) else n.Wrap(value, result)
 
 
 def divide(context: Context, left: n.Expr, right: n.Expr, result: n.ValueType) -> n.Expr:
     """Division; by zero it faults, integers truncate."""
     right = _checked_divisor(context, right)
-    if result is ty.REAL:
+    if _is_real(result):
         return n.Op("div", left, right, result)
     return n.Wrap(_integer_division(context, "div", left, right, result), result)
 
@@ -290,14 +290,38 @@ def _integer_division(context: Context, name: str, left: n.Expr, right: n.Expr, 
     return context.spill(value) if result in (ty.UDINT, ty.DWORD) else value
 
 
-def _scaled_time(context: Context, operator: str, time: n.Expr, factor: n.Expr) -> n.Expr:
-    """TIME * number and TIME / number (table 35)."""
-    if factor.type is ty.REAL:
-        value = n.ToReal(time, ty.REAL)
-        name = "mul"
-        if operator == "/":
-            factor, name = _checked_divisor(context, factor), "div"
-        return real_result(context, n.Op(name, value, factor, ty.REAL), ty.TIME, truncate=False)
+def _scaled_duration(context: Context, operator: str, duration: n.Expr, factor: n.Expr) -> n.Expr:
+    """A duration * or / a number (table 35, 10 and 11)."""
+    result = duration.type
+    assert isinstance(result, ty.ElementaryType)
+    if _is_real(factor.type):
+        return _scaled_by_real(context, operator, duration, factor, result)
+    # of different widths, both are calculated with as objects
+    wide = ty.LTIME if duration.type.in_objects or factor.type.in_objects else result
+    if wide is ty.LTIME:
+        duration, factor = _as_object(duration), _as_object(factor)
     if operator == "/":
-        return divide(context, time, factor, ty.TIME)
-    return n.Wrap(n.Op("mul", time, factor, ty.TIME), ty.TIME)
+        return n.Wrap(divide(context, duration, factor, wide), result)
+    return n.Wrap(n.Op("mul", duration, factor, wide), result)
+
+
+def _scaled_by_real(
+    context: Context, operator: str, duration: n.Expr, factor: n.Expr, result: ty.ElementaryType
+) -> n.Expr:
+    if operator == "/":
+        factor = _checked_divisor(context, factor)
+    if result is ty.LTIME:
+        # exactly: its nanoseconds are more than a board's float can tell apart
+        context.emit(n.Mark(context.site))
+        return n.Intrinsic("over_real" if operator == "/" else "times_real", (duration, factor), result)
+    value = n.ToReal(duration, factor.type)
+    scaled = n.Op("div" if operator == "/" else "mul", value, factor, factor.type)
+    return real_result(context, scaled, result, truncate=False)
+
+
+def _as_object(value: n.Expr) -> n.Expr:
+    return value if value.type.in_objects else n.Wrap(value, ty.LINT)
+
+
+def _is_real(of: n.ValueType) -> bool:
+    return isinstance(of, ty.ElementaryType) and of.kind is ty.Kind.REAL

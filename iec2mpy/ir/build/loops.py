@@ -145,11 +145,12 @@ def _give_control(context: Context, control: n.Place | PackedPlace, value: n.Loc
 def _room(value: n.Expr, end: n.Expr, step: n.Expr, upwards: bool) -> n.Expr:
     """Whether another step stays inside: the way left, as an unsigned number, is at least a step."""
     left, right = (end, value) if upwards else (value, end)
-    way = n.Wrap(n.Op("sub", left, right, ty.DINT), ty.UDINT)
+    unsigned = ty.ULINT if value.type.in_objects else ty.UDINT
+    way = n.Wrap(n.Op("sub", left, right, value.type), unsigned)
     if isinstance(step, n.Const):
-        size: n.Expr = n.Const(abs(step.number), ty.UDINT)
+        size: n.Expr = n.Const(abs(step.number), unsigned)
     else:
-        size = n.Wrap(step if upwards else n.Op("sub", n.Const(0, step.type), step, step.type), ty.UDINT)
+        size = n.Wrap(step if upwards else n.Op("sub", n.Const(0, step.type), step, step.type), unsigned)
     return n.Op("ge", way, size, ty.BOOL)
 
 

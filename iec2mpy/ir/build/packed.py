@@ -96,7 +96,7 @@ def store(context: Context, place: PackedPlace, value: n.Expr) -> None:
         context.emit(n.Store(_byte(place, number), part))
 
 
-_UNSIGNED = {t.bits: t for t in (ty.BYTE, ty.WORD, ty.DWORD)}
+_UNSIGNED = {t.bits: t for t in (ty.BYTE, ty.WORD, ty.DWORD, ty.LWORD)}
 
 
 def _byte(place: PackedPlace, number: int, index: n.Expr | None = None) -> n.Place:

@@ -118,6 +118,8 @@ def _offset(context: Context, value: n.Expr, low: int, high: int) -> n.Expr:
     if isinstance(value, n.Const):
         return n.Const(value.number - low, ty.DINT)
     value = check_range(context, value, low, high, "index")
+    if value.type.in_objects:
+        value = n.Wrap(value, ty.DINT)
     return _add(value, n.Const(-low, ty.DINT))
 
 

@@ -12,7 +12,7 @@ main.level|INT (0..100)|V|10|0|100|
 main.u|UDINT|V|11|0|4294967295|
 main.c|Colour|V|12|0|2|
 main.x|REAL|O|1|||
-main.s|STRING[5]|O|2|0|5|
+main.s|STRING|O|2|0|5|
 main.t|TIME|V|13|-2147483648|2147483647|
 main.a[]|INT|V|20|-32768|32767|1:3:1
 main.m[,].on|BOOL|V|30|0|1|0:1:6;-1:1:2
