@@ -2,8 +2,8 @@
 
     python bench/scan_speed.py
 
-The program is made of ladder rungs, additions and timers. By hand it is written as people write it: a class, attributes,
-`and`, `or`; timers are objects with a method. Both do the same, and the outputs are compared after the run.
+The program is made of ladder rungs, additions and timers. By hand it is written as people write it: a class,
+attributes, `and`, `or`; timers are objects with a method. Both do the same: their sums are compared after the run.
 """
 
 from __future__ import annotations
