@@ -67,7 +67,7 @@ class Addresses:
                 declared = step.variable.type
             else:
                 unaliased = ty.unaliased(declared) if declared is not None else None
-                assert isinstance(unaliased, ty.ArrayType)
+                assert isinstance(unaliased, (ty.ArrayType, ty.OpenArrayType))
                 stride = self.layout.size_of(unaliased.element).of(array)
                 declared = unaliased.element
                 constant, terms = _scaled(step.index, stride)

@@ -97,6 +97,8 @@ class Layout:
         declared = ty.base_type(declared)
         if isinstance(declared, ty.ArrayType):
             return self.size_of(declared.element).times(math.prod(declared.lengths))
+        if isinstance(declared, ty.OpenArrayType):
+            return self.size_of(declared.element)  # what matters is in which arrays it has a part
         if isinstance(declared, (ty.StructType, ty.BlockType)):
             return self.record(declared).size
         stored = ty.value_type(declared)
@@ -142,7 +144,7 @@ class Layout:
 
     def storage_of(self, variable: Variable) -> Size:
         """The slots of a variable: an in-out is a reference, in one slot."""
-        return _SLOT if variable.section is Section.IN_OUT else self.size_of(variable.type)
+        return _SLOT if variable.by_reference else self.size_of(variable.type)
 
     # ---------------------------------------------------------------------------------- positions
 
@@ -199,7 +201,7 @@ class Layout:
         ]
         for record, base, homes in records:
             for variable, offset in record.offsets.items():
-                if variable.section is not Section.IN_OUT:
+                if not variable.by_reference:
                     yield variable.type, variable.initial, base + offset, homes
 
     def retained(self) -> Iterator[tuple[Size, Size]]:
@@ -213,7 +215,7 @@ class Layout:
         """What says nothing of its own does as its instance does (6.5.6.2). References are not kept: where a variable
         is may differ from one version of a program to the next."""
         for variable, offset in record.offsets.items():
-            if variable.section is not Section.IN_OUT:
+            if not variable.by_reference:
                 retain = inherited if variable.retain is None else variable.retain
                 yield from self._retained_in(variable.type, base + offset, retain)
 
@@ -255,7 +257,7 @@ class Layout:
         elif isinstance(declared, ty.BlockType):
             yield declared.pou, at
             for variable, offset in self.record(declared).offsets.items():
-                if variable.section is not Section.IN_OUT:
+                if not variable.by_reference:
                     yield from self._instances_in(variable.type, at + offset)
 
 

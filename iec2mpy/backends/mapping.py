@@ -109,7 +109,7 @@ def _type_leaves(
         yield from _type_leaves(layout, shape.element, path, at, inner, enums)
     elif isinstance(shape, (ty.StructType, ty.BlockType)):
         for variable, offset in layout.record(shape).offsets.items():
-            if variable.section is not Section.IN_OUT:
+            if not (variable.by_reference or variable.hidden):
                 inner_path = f"{path}.{variable.name}"
                 yield from _type_leaves(layout, variable.type, inner_path, at + offset, dimensions, enums)
     else:

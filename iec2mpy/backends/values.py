@@ -8,7 +8,6 @@ from iec2mpy.backends.forms import pattern
 from iec2mpy.backends.layout import Homes, Layout, Size, packed
 from iec2mpy.semantics import types as ty
 from iec2mpy.semantics.typed import Address
-from iec2mpy.syntax.tree import Section
 
 
 def flat_values(
@@ -49,7 +48,7 @@ def _record_values(
         homes = {**homes, declared.pou: at}
     found: list[object] = []
     for variable, offset in layout.record(declared).offsets.items():
-        if variable.section is Section.IN_OUT:
+        if variable.by_reference:
             found += [0] if array == "V" else []
         else:
             given = value.get(variable.key, variable.initial)

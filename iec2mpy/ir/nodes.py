@@ -14,7 +14,6 @@ from dataclasses import dataclass, field
 from iec2mpy.semantics.typed import Pou, Scalar, Task, Variable
 from iec2mpy.semantics.types import REFERENCE, ElementaryType, RefType, StringType, Type, unaliased
 from iec2mpy.source.spans import Span
-from iec2mpy.syntax.tree import Section
 
 ValueType = ElementaryType | StringType
 """The type of an expression: what a single value is stored as."""
@@ -80,8 +79,8 @@ class Place:
 
 
 def storage_type(variable: Variable) -> Type:
-    """The type of what a variable itself holds, without aliases: an in-out holds a reference."""
-    return RefType(variable.type) if variable.section is Section.IN_OUT else unaliased(variable.type)
+    """The type of what a variable itself holds, without aliases: an in-out holds a reference, an ARRAY[*] too."""
+    return RefType(variable.type) if variable.by_reference else unaliased(variable.type)
 
 
 # ------------------------------------------------------------------------------------------- expressions

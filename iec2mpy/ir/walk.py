@@ -60,6 +60,8 @@ def map_statement_exprs(statement: n.Stmt, rewrite: Rewrite) -> n.Stmt:
             return n.Compare(local, map_place(left, rewrite), map_place(right, rewrite))
         case n.Bind(reference, target):
             return n.Bind(map_place(reference, rewrite), map_place(target, rewrite))
+        case n.Reset(place, value):
+            return n.Reset(map_place(place, rewrite), value)
         case n.Call(pou, instance) if instance is not None:
             return n.Call(pou, map_place(instance, rewrite))
         case n.Guard(condition, fault, site):

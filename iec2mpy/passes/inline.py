@@ -14,7 +14,6 @@ from iec2mpy.ir import nodes as n
 from iec2mpy.ir.walk import map_block, map_statement_exprs, map_statement_places, statements
 from iec2mpy.passes.returns import without_returns
 from iec2mpy.semantics.typed import Pou
-from iec2mpy.syntax.tree import Section
 
 SMALL = 24
 """A body of up to so many statements is always inlined …"""
@@ -73,7 +72,7 @@ def _taken_bindings(before: list[n.Stmt], call: n.Call) -> dict[n.Place, n.Place
     """What the in-outs of a call stand for, by the places of their references. Those that stand for a plain place are
     taken out of what comes before the call: the code in its place names that itself."""
     root, steps = (call.instance.root, call.instance.steps) if call.instance else (n.Frame(call.pou), ())
-    in_outs = [v for v in call.pou.parameters if v.section is Section.IN_OUT]
+    in_outs = [v for v in call.pou.parameters if v.by_reference]
     own = {n.Place(root, (*steps, n.Field(v)), n.storage_type(v)) for v in in_outs}
     found: dict[n.Place, n.Place] = {}
     position = len(before)

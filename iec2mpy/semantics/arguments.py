@@ -12,6 +12,7 @@ from iec2mpy.semantics.scope import UNKNOWN, Scope
 from iec2mpy.semantics.signatures import parameter_key
 from iec2mpy.semantics.typed import (
     ActualParameter,
+    Constant,
     Expr,
     FieldRef,
     InOutArgument,
@@ -22,7 +23,7 @@ from iec2mpy.semantics.typed import (
     Variable,
     VariableRef,
 )
-from iec2mpy.semantics.types import ElementaryType, base_type, unaliased
+from iec2mpy.semantics.types import DINT, ArrayType, ElementaryType, OpenArrayType, base_type, unaliased
 from iec2mpy.source.suggest import suggest
 from iec2mpy.syntax import tree
 from iec2mpy.syntax.tree import Section
@@ -140,10 +141,11 @@ def missing_in_outs(scope: Scope, call: tree.CallExpr, callee: Pou, matched: lis
     """Whether an in-out is not given, which is reported (6.6.1.4.1)."""
     given = {match.parameter for match in matched}
     for parameter in callee.parameters:
-        if parameter.section is Section.IN_OUT and parameter not in given:
+        if parameter.by_reference and parameter not in given:
+            what = "in-out" if parameter.section is Section.IN_OUT else "array"
             scope.diagnostics.add(
                 "E0405",
-                f"The in-out `{parameter.name}` of `{callee.name}` is missing.",
+                f"The {what} `{parameter.name}` of `{callee.name}` is missing.",
                 call.span,
                 f"Give it a variable: {parameter.name} := variable.",
             )
@@ -155,23 +157,46 @@ def pass_arguments(
     scope: Scope, matched: list[ArgumentMatch], instance: Expr | None
 ) -> tuple[ActualParameter, ...] | None:
     """Each argument in the type of its parameter; `instance` is None for a function."""
-    actual: list[ActualParameter] = []
-    for match in matched:
-        argument = _pass(scope, match, instance)
-        if argument is not None:
-            actual.append(argument)
-    return tuple(actual) if len(actual) == len(matched) else None
+    passed = [_pass(scope, match, instance) for match in matched]
+    actual = [argument for argument in passed if argument is not None]
+    if len(actual) != len(matched):
+        return None
+    return (*actual, *(limit for argument in actual for limit in _limits(argument)))
+
+
+def _limits(argument: ActualParameter) -> list[InputArgument]:
+    """The limits of what an ARRAY[*] stands for."""
+    if not isinstance(argument, InOutArgument):
+        return []
+    found: list[InputArgument] = []
+    given = limits_of(argument.target)
+    for own, limits in zip(argument.parameter.limits, given, strict=bool(argument.parameter.limits)):
+        found += [InputArgument(variable, limit) for variable, limit in zip(own, limits, strict=True)]
+    return found
+
+
+def limits_of(array: Expr) -> list[tuple[Expr, Expr]]:
+    """The lowest and the highest subscript of each dimension, as DINT."""
+    if isinstance(array.type, ArrayType):
+        return [(Constant(low, DINT, array.span), Constant(high, DINT, array.span)) for low, high in array.type.bounds]
+    if not isinstance(array.type, OpenArrayType):
+        return []
+    assert isinstance(array, VariableRef), "an ARRAY[*] is a parameter, and no part of anything"
+    pairs = array.variable.limits
+    return [(VariableRef(low, DINT, array.span), VariableRef(high, DINT, array.span)) for low, high in pairs]
 
 
 def _pass(scope: Scope, match: ArgumentMatch, instance: Expr | None) -> ActualParameter | None:
     parameter, value = match.parameter, match.value
-    if parameter.section is Section.OUTPUT:
-        return output_argument(scope, match, instance)
-    if parameter.section is Section.IN_OUT:
-        target = reference(scope, value, Use.IN_OUT)
+    if parameter.by_reference:
+        uses = {Section.INPUT: Use.READ, Section.OUTPUT: Use.WRITE, Section.IN_OUT: Use.IN_OUT}
+        assert parameter.section is not None
+        target = reference(scope, value, uses[parameter.section])
         if target is None or not same_or_report(scope, target, parameter.type, parameter.name):
             return None
         return InOutArgument(parameter, target)
+    if parameter.section is Section.OUTPUT:
+        return output_argument(scope, match, instance)
     checked = expressions.check(scope, value, parameter.type)
     if checked is None:
         return None

@@ -10,6 +10,7 @@ from iec2mpy.semantics.conversions import (
     INTEGER_KINDS,
     UNTYPED_INT,
     UNTYPED_REAL,
+    can_stand_for,
     conversion_name,
     converts_implicitly,
     is_integer,
@@ -29,6 +30,7 @@ from iec2mpy.semantics.types import (
     ElementaryType,
     EnumType,
     Kind,
+    OpenArrayType,
     RefType,
     StringType,
     StructType,
@@ -202,12 +204,13 @@ def shown(span: Span) -> str:
 
 def same_or_report(scope: Scope, value: Expr, target: Type, name: str) -> bool:
     """Whether `value` is a variable that can stand for the in-out `name` of type `target` (6.6.1.6, rule 6)."""
-    if target is UNKNOWN or same_type(value.type, target):
+    if target is UNKNOWN or can_stand_for(value.type, target):
         return True
-    scope.diagnostics.add(
-        "E0314",
-        f"The in-out `{name}` is {target}, but this variable is {describe(value.type)}.",
-        value.span,
-        "An in-out takes a variable of its very type: nothing is converted.",
-    )
+    if isinstance(target, OpenArrayType):
+        message = f"`{name}` is {target}, but this is {describe(value.type)}."
+        hint = "It takes arrays with as many dimensions, and of the same elements."
+    else:
+        message = f"The in-out `{name}` is {target}, but this variable is {describe(value.type)}."
+        hint = "An in-out takes a variable of its very type: nothing is converted."
+    scope.diagnostics.add("E0314", message, value.span, hint)
     return False

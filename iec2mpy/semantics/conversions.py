@@ -27,6 +27,7 @@ from iec2mpy.semantics.types import (
     ArrayType,
     ElementaryType,
     Kind,
+    OpenArrayType,
     RefType,
     StringType,
     SubrangeType,
@@ -84,9 +85,20 @@ def same_type(a: Type, b: Type) -> bool:
         return (a.base, a.low, a.high) == (b.base, b.low, b.high)
     if isinstance(a, ArrayType) and isinstance(b, ArrayType):
         return a.bounds == b.bounds and same_type(a.element, b.element)
+    if isinstance(a, OpenArrayType):
+        return False  # two of them may have different limits
     if isinstance(a, RefType) and isinstance(b, RefType):
         return same_type(a.target, b.target)  # a directly derived type is the same (6.4.4.10.1)
     return a == b
+
+
+def can_stand_for(given: Type, parameter: Type) -> bool:
+    """Whether a variable of type `given` can be what an in-out of type `parameter` stands for (6.6.1.6, 6.5.3)."""
+    given, parameter = unaliased(given), unaliased(parameter)
+    if not isinstance(parameter, OpenArrayType):
+        return same_type(given, parameter)
+    is_array = isinstance(given, (ArrayType, OpenArrayType))
+    return is_array and given.dimensions == parameter.dimensions and same_type(given.element, parameter.element)
 
 
 def converts_implicitly(source: Type, target: Type) -> bool:

@@ -9,13 +9,15 @@ from iec2mpy.semantics.conversions import same_type
 from iec2mpy.semantics.defaults import default_value
 from iec2mpy.semantics.initial_values import initial_value
 from iec2mpy.semantics.scope import UNKNOWN, GlobalDeclaration, GlobalScope, Scope
-from iec2mpy.semantics.type_specs import resolve_type
+from iec2mpy.semantics.type_specs import is_open, open_array, resolve_type
 from iec2mpy.semantics.typed import EdgeInput, Pou, Value, Variable
 from iec2mpy.semantics.types import (
     BOOL,
+    DINT,
     AliasType,
     ArrayType,
     BlockType,
+    OpenArrayType,
     RefType,
     StructType,
     Type,
@@ -168,7 +170,11 @@ def _check_qualifiers(scope: Scope, section: tree.VarSection) -> None:
 
 
 def _declare(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tree.VarDecl) -> None:
-    t = resolve_type(scope, declaration.type)
+    spec = declaration.type
+    if isinstance(spec, tree.ArraySpec) and is_open(spec.bounds[0]) and _may_be_open(pou, section.section):
+        t = open_array(scope, spec)
+    else:
+        t = resolve_type(scope, spec)
     if t is not UNKNOWN and not _may_hold(scope, pou, section, declaration, t):
         t = UNKNOWN
     initial = _initial(scope, section, declaration, t)
@@ -180,6 +186,8 @@ def _declare(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tree
         variable = _variable(section, declaration, name, t, initial)
         variable.owner = pou
         pou.variables[name.key] = variable
+        if isinstance(t, OpenArrayType):
+            variable.limits = tuple(_limits(pou, variable, number + 1) for number in range(t.dimensions))
         scope.locals[name.key] = variable
         _check_control(scope, variable)
         if declaration.edge is not None and may_have_edge:
@@ -193,6 +201,23 @@ def _declare(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tree
                 _locate(scope, declaration.location, variable)
             else:
                 _no_address(scope, pou, declaration.location)
+
+
+def _may_be_open(pou: Pou, section: Section) -> bool:
+    """Whether ARRAY[*] may stand there (6.5.3)."""
+    if pou.kind is PouKind.FUNCTION:
+        return section in (Section.INPUT, Section.OUTPUT, Section.IN_OUT)
+    return pou.kind is PouKind.FUNCTION_BLOCK and section is Section.IN_OUT
+
+
+def _limits(pou: Pou, variable: Variable, dimension: int) -> tuple[Variable, Variable]:
+    """What holds the limits of a dimension of an ARRAY[*]. The names are none that a program can write."""
+    low, high = (
+        Variable(f"{variable.name} {what} {dimension}", DINT, None, variable.span, 0, owner=pou)
+        for what in ("low", "high")
+    )
+    pou.variables |= {low.key: low, high.key: high}
+    return low, high
 
 
 def _variable(
@@ -303,7 +328,7 @@ def _may_hold(scope: Scope, pou: Pou, section: tree.VarSection, declaration: tre
 
 
 def _blocks_in(t: Type) -> Iterator[BlockType]:
-    while isinstance(t, (AliasType, ArrayType)):
+    while isinstance(t, (AliasType, ArrayType, OpenArrayType)):
         t = t.target if isinstance(t, AliasType) else t.element
     if isinstance(t, BlockType):
         yield t

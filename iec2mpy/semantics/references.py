@@ -28,6 +28,7 @@ from iec2mpy.semantics.types import (
     ArrayType,
     BlockType,
     EnumType,
+    OpenArrayType,
     RefType,
     StringType,
     StructType,
@@ -265,7 +266,7 @@ def _base(scope: Scope, expr: tree.Expr, use: Use) -> Expr | None:
 
 def _holds_instance(expr: Expr) -> bool:
     t = expr.type
-    while isinstance(t, ArrayType):
+    while isinstance(t, (ArrayType, OpenArrayType)):
         t = unaliased(t.element)
     return isinstance(t, BlockType)
 
@@ -324,7 +325,7 @@ def _element(scope: Scope, expr: tree.IndexExpr, use: Use) -> Expr | None:
     t = base.type
     if isinstance(t, StringType):
         return _character(scope, expr, base, t, indices, use)
-    if not isinstance(t, ArrayType):
+    if not isinstance(t, (ArrayType, OpenArrayType)):
         scope.diagnostics.add(
             "E0307",
             f"This is {describe(t)}, which has no elements.",
@@ -332,13 +333,13 @@ def _element(scope: Scope, expr: tree.IndexExpr, use: Use) -> Expr | None:
             "Only arrays and strings have subscripts.",
         )
         return None
-    if len(indices) != len(t.bounds):
+    if len(indices) != t.dimensions:
         scope.diagnostics.add(
-            "E0306", f"This array has {_dimensions(len(t.bounds))}, and {len(indices)} given.", expr.span
+            "E0306", f"This array has {_dimensions(t.dimensions)}, and {len(indices)} given.", expr.span
         )
         return None
     checked = [index for index in indices if index is not None]
-    if len(checked) != len(indices) or not _inside(scope, checked, t):
+    if len(checked) != len(indices) or (isinstance(t, ArrayType) and not _inside(scope, checked, t)):
         return None
     return ElementRef(base, tuple(checked), unaliased(t.element), expr.span)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 
-from iec2mpy.semantics import arithmetic, expressions, loose, operators
+from iec2mpy.semantics import arithmetic, array_limits, expressions, loose, operators
 from iec2mpy.semantics.arguments import report_mixed
 from iec2mpy.semantics.arithmetic import COMPARISONS
 from iec2mpy.semantics.coercion import coerce, describe, fits_literal, typed_literal
@@ -43,6 +43,8 @@ def check(
     given = match(scope, call, signature)
     if given is None:
         return None
+    if array_limits.is_limit(signature.name):
+        return array_limits.check(scope, signature.name, given, signature.fixed or expected, call.span)
     values = _checked(scope, given, signature, expected)
     if values is None:
         return None

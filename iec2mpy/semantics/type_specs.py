@@ -21,6 +21,7 @@ from iec2mpy.semantics.types import (
     ElementaryType,
     EnumType,
     Kind,
+    OpenArrayType,
     RefType,
     StringType,
     StructType,
@@ -224,11 +225,29 @@ def _enumeration(scope: Scope, spec: tree.EnumSpec, name: str | None) -> Type:
     return t
 
 
+def open_array(scope: Scope, spec: tree.ArraySpec) -> Type:
+    """`ARRAY[*]`, for a parameter that may be one."""
+    element = resolve_type(scope, spec.element)
+    if element is UNKNOWN:
+        return UNKNOWN
+    if not all(is_open(bound) for bound in spec.bounds):
+        message = "An array has either all of its limits, or * for each of them."
+        scope.diagnostics.add("E0714", message, spec.span)
+        return UNKNOWN
+    return OpenArrayType(element, len(spec.bounds))
+
+
+def is_open(bound: tree.ArrayBound) -> bool:
+    """Whether it is `*`."""
+    return bound.low is None
+
+
 def _array(scope: Scope, spec: tree.ArraySpec, name: str | None) -> Type:
     bounds: list[tuple[int, int]] = []
     for bound in spec.bounds:
         if bound.low is None or bound.high is None:
-            return UNKNOWN  # ARRAY[*]: the parser has said that it is not supported yet
+            _no_open_array(scope, spec)
+            return UNKNOWN
         limits = _limits(scope, bound.low, bound.high, "A limit of an array", bound.span)
         if limits is None:
             return UNKNOWN
@@ -241,6 +260,15 @@ def _array(scope: Scope, spec: tree.ArraySpec, name: str | None) -> Type:
         scope.diagnostics.add("E0512", f"An array of {_count(t)} elements is too large for a controller.", spec.span)
         return UNKNOWN
     return t
+
+
+def _no_open_array(scope: Scope, spec: tree.ArraySpec) -> None:
+    scope.diagnostics.add(
+        "E0714",
+        "The limits of this array are missing.",
+        spec.span,
+        "Only parameters may be ARRAY[*]: VAR_IN_OUT, and VAR_INPUT and VAR_OUTPUT of a FUNCTION.",
+    )
 
 
 def _count(t: Type) -> int:

@@ -52,6 +52,7 @@ class Variable:
     `initial` is complete: the declared value, or that of the type. `address` is the normal form of its location.
     For EXTERNAL, `target` is the global variable meant. `retain`: True for RETAIN, False for NON_RETAIN, and None where
     nothing is written: such a variable of an instance does as the instance does (6.5.6.2), others are not retained.
+    `limits`: of an ARRAY[*], the variables of the same POU that hold its limits, (low, high) of each dimension.
     `shared` is where a located variable lies that overlaps others.
     `referred`: where there is a REF of it, so that it can be written under another name at any time.
     """
@@ -68,10 +69,21 @@ class Variable:
     owner: Pou | None = None
     shared: SharedPlace | None = None
     referred: Span | None = None
+    limits: tuple[tuple[Variable, Variable], ...] = ()
 
     @property
     def key(self) -> str:
         return self.name.casefold()
+
+    @property
+    def by_reference(self) -> bool:
+        """Whether it stands for a variable of the caller: an in-out does, and any ARRAY[*]."""
+        return self.section is Section.IN_OUT or bool(self.limits)
+
+    @property
+    def hidden(self) -> bool:
+        """Whether the compiler made it, and no program can name it."""
+        return self.section is None and self.owner is not None
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,7 +314,7 @@ class InputArgument:
 
 @dataclass(frozen=True, slots=True)
 class InOutArgument:
-    """The variable that an in-out stands for."""
+    """The variable that an in-out, or an ARRAY[*], stands for."""
 
     parameter: Variable
     target: Expr

@@ -186,11 +186,26 @@ class ArrayType:
     bounds: tuple[tuple[int, int], ...]
 
     @property
+    def dimensions(self) -> int:
+        return len(self.bounds)
+
+    @property
     def lengths(self) -> tuple[int, ...]:
         return tuple(high - low + 1 for low, high in self.bounds)
 
     def __str__(self) -> str:
         return f"ARRAY[{', '.join(f'{low}..{high}' for low, high in self.bounds)}] OF {self.element}"
+
+
+@dataclass(frozen=True, slots=True)
+class OpenArrayType:
+    """`ARRAY[*, *]`: a parameter that stands for an array with any limits (6.5.3)."""
+
+    element: Type
+    dimensions: int
+
+    def __str__(self) -> str:
+        return f"ARRAY[{', '.join('*' * self.dimensions)}] OF {self.element}"
 
 
 @dataclass(eq=False, slots=True)
@@ -241,7 +256,18 @@ class AliasType:
         return self.name
 
 
-Type = ElementaryType | StringType | EnumType | SubrangeType | ArrayType | StructType | BlockType | RefType | AliasType
+Type = (
+    ElementaryType
+    | StringType
+    | EnumType
+    | SubrangeType
+    | ArrayType
+    | OpenArrayType
+    | StructType
+    | BlockType
+    | RefType
+    | AliasType
+)
 
 
 def base_type(t: Type) -> Type:

@@ -90,8 +90,7 @@ def bound(values: list[Any], _diagnostics: Diagnostics) -> tree.ArrayBound:
 
 
 @action
-def open_bound(values: list[Any], diagnostics: Diagnostics) -> tree.ArrayBound:
-    not_supported("E0911", "Arrays of variable length (`ARRAY[*]`) are", values[0].span, diagnostics)
+def open_bound(values: list[Any], _diagnostics: Diagnostics) -> tree.ArrayBound:
     return tree.ArrayBound(None, None, values[0].span)
 
 

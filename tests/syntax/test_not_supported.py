@@ -36,7 +36,6 @@ def _body(text: str) -> str:
         ("CONFIGURATION c\nPROGRAM p : m;\nVAR_CONFIG\nr.p.x AT %IX0.0 : BOOL;\nEND_VAR\nEND_CONFIGURATION",
          [("E0908", 3)]),
         ("TYPE S : STRUCT OVERLAP a AT %B0 : INT; END_STRUCT; END_TYPE", [("E0910", 1), ("E0910", 1)]),
-        (_body("VAR_IN_OUT a : ARRAY[*, *] OF INT; END_VAR"), [("E0911", 2), ("E0911", 2)]),
         ("CONFIGURATION c\nPROGRAM p : m(b WITH t);\nEND_CONFIGURATION", [("E0913", 2)]),
     ],
 )  # fmt: skip

@@ -7,7 +7,7 @@ from iec2mpy.ir.build.context import TRUE, Context
 from iec2mpy.ir.build.edges import find_edge
 from iec2mpy.ir.build.places import storage_place
 from iec2mpy.ir.build.statements import lower_block
-from iec2mpy.ir.build.stores import assign_initial
+from iec2mpy.ir.build.stores import assign_initial, fill_initial
 from iec2mpy.ir.walk import statements
 from iec2mpy.semantics import typed as t
 from iec2mpy.syntax.tree import PouKind, Section
@@ -41,7 +41,10 @@ def _build_reached(pou: t.Pou, bodies: dict[t.Pou, n.Body]) -> None:
 def _build_body(pou: t.Pou) -> n.Body:
     context = Context(pou)
     for variable in _fresh_variables(pou):
-        assign_initial(context, storage_place(variable))
+        if variable.by_reference:
+            fill_initial(context, variable)
+        else:
+            assign_initial(context, storage_place(variable))
     if pou.en is not None and pou.kind is not PouKind.PROGRAM:
         # 6.6.1.5, rules 1 and 5: the body runs only where the call has not given FALSE
         context.values[pou.en] = TRUE

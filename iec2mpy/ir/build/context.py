@@ -177,7 +177,7 @@ def is_in_out(reference: n.Expr) -> bool:
     if not isinstance(reference, n.Load) or not reference.place.steps:
         return False
     last = reference.place.steps[-1]
-    return isinstance(last, n.Field) and last.variable.section is Section.IN_OUT
+    return isinstance(last, n.Field) and last.variable.by_reference
 
 
 def is_atom(value: n.Expr) -> bool:

@@ -19,7 +19,7 @@ NULL = n.Const(0, ty.REFERENCE)
 def variable_place(variable: t.Variable) -> n.Place:
     """Where a variable lives, seen from any body that may name it."""
     own = storage_place(variable)
-    return _followed(own, variable.type) if variable.section is Section.IN_OUT else own
+    return _followed(own, variable.type) if variable.by_reference else own
 
 
 def storage_place(variable: t.Variable) -> n.Place:
@@ -36,7 +36,7 @@ def storage_place(variable: t.Variable) -> n.Place:
 def field_place(base: n.Place, variable: t.Variable) -> n.Place:
     """A field of a structure, or a variable of an instance; an in-out of it is followed."""
     place = n.Place(base.root, (*base.steps, n.Field(variable)), n.storage_type(variable))
-    return _followed(place, variable.type) if variable.section is Section.IN_OUT else place
+    return _followed(place, variable.type) if variable.by_reference else place
 
 
 def _followed(in_out: n.Place, declared: ty.Type) -> n.Place:
@@ -76,7 +76,7 @@ def lower_place(context: Context, expr: t.Expr, lower_expr: LowerExpr) -> n.Plac
         case t.ElementRef(base, indices):
             base_place = lower_place(context, base, lower_expr)
             mark = context.mark()
-            index = _flat_index(context, base_place.type, indices, lower_expr)
+            index = _flat_index(context, base, indices, lower_expr)
             if isinstance(base_place, PackedPlace):
                 return element_of(context, base_place, index)
             base_place = context.settle_place(mark, base_place)
@@ -98,19 +98,41 @@ def fixed(context: Context, place: n.Place) -> n.Place:
     return n.Place(root, steps, place.type)
 
 
-def _flat_index(context: Context, array: ty.Type, indices: tuple[t.Expr, ...], lower_expr: LowerExpr) -> n.Expr:
+def _flat_index(context: Context, array: t.Expr, indices: tuple[t.Expr, ...], lower_expr: LowerExpr) -> n.Expr:
     """The element's number from 0: rows first (6.4.4.5.1)."""
-    assert isinstance(array, ty.ArrayType)
     values: list[n.Expr] = []
     for index in indices:
         mark = context.mark()
         value = lower_expr(context, index)
         values = [*context.settle(mark, values), value]
+    if isinstance(array, t.VariableRef) and array.variable.limits:
+        return _open_flat_index(context, array.variable, values)
+    assert isinstance(array.type, ty.ArrayType)
     flat: n.Expr = n.Const(0, ty.DINT)
-    for value, (low, high) in zip(values, array.bounds, strict=True):
+    for value, (low, high) in zip(values, array.type.bounds, strict=True):
         offset = _offset(context, value, low, high)
         flat = _add(_multiply(flat, high - low + 1), offset)
     return flat
+
+
+def _open_flat_index(context: Context, array: t.Variable, values: list[n.Expr]) -> n.Expr:
+    """The same, of an ARRAY[*], whose limits are known when the program runs."""
+    flat: n.Expr = n.Const(0, ty.DINT)
+    for value, limits in zip(values, array.limits, strict=True):
+        low, high = (n.Load(storage_place(limit), ty.DINT) for limit in limits)
+        value = n.Wrap(context.atom(check_range(context, value, ty.DINT.low, ty.DINT.high, "index")), ty.DINT)
+        below, above = n.Op("lt", value, low, ty.BOOL), n.Op("gt", value, high, ty.BOOL)
+        context.emit(n.Guard(n.Op("or", below, above, ty.BOOL), "index", context.site))
+        offset = n.Op("sub", value, low, ty.DINT)
+        if not isinstance(flat, n.Const):
+            flat = n.Op("mul", flat, length(low, high), ty.DINT)
+        flat = _add(flat, offset)
+    return flat
+
+
+def length(low: n.Expr, high: n.Expr) -> n.Expr:
+    """How many subscripts there are from one to the other."""
+    return n.Op("add", n.Op("sub", high, low, ty.DINT), n.Const(1, ty.DINT), ty.DINT)
 
 
 def _offset(context: Context, value: n.Expr, low: int, high: int) -> n.Expr:

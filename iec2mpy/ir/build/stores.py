@@ -9,9 +9,10 @@ from iec2mpy.ir.build.checks import check_range
 from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.conversions import fit_string
 from iec2mpy.ir.build.packed import PackedPlace, store
-from iec2mpy.ir.build.places import address_place, field_place
+from iec2mpy.ir.build.places import address_place, field_place, length, storage_place, variable_place
 from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
+from iec2mpy.semantics.defaults import default_value
 
 
 def assign(context: Context, place: n.Place | PackedPlace, declared: ty.Type, value: n.Expr) -> None:
@@ -67,3 +68,25 @@ def _elements(value: t.Value, dimensions: int) -> Iterator[t.Value]:
     assert isinstance(value, Sequence)
     for item in value:
         yield from _elements(item, dimensions - 1)
+
+
+def fill_initial(context: Context, array: t.Variable) -> None:
+    """Gives each element of an output ARRAY[*] its initial value, as an output has one at each call (6.6.1.4.1)."""
+    assert isinstance(array.type, ty.OpenArrayType)
+    element = ty.unaliased(array.type.element)
+    count: n.Expr = n.Const(1, ty.DINT)
+    for low, high in array.limits:
+        one = length(n.Load(storage_place(low), ty.DINT), n.Load(storage_place(high), ty.DINT))
+        count = one if isinstance(count, n.Const) else n.Op("mul", count, one, ty.DINT)
+    left = context.spill(n.Wrap(count, ty.DINT))
+    whole = variable_place(array)
+    place = n.Place(whole.root, (*whole.steps, n.Element(left)), element)
+    initial, stored = default_value(element), ty.value_type(element)
+    with context.block() as body:
+        context.emit(n.SetLocal(left, n.Wrap(n.Op("sub", left, n.Const(1, ty.DINT), ty.DINT), ty.DINT)))
+        if stored is None:
+            context.emit(n.Reset(place, initial))
+        else:
+            assert isinstance(initial, (int, float, str))
+            context.emit(n.Store(place, n.Const(initial, stored)))
+    context.emit(n.While(n.Op("gt", left, n.Const(0, ty.DINT), ty.BOOL), tuple(body)))
