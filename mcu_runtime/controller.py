@@ -128,6 +128,12 @@ class Controller:
             self._untimed.wait = 0  # it has no instant of its own: it ends each scan
         self._end_scan()
 
+    def align(self):
+        """After real time, before `scan`: the next task is due at once. Its deadline may be more than a period away."""
+        soonest = min([task.wait for task in self._all]) if self._all else 0
+        for task in self._all:
+            task.wait -= soonest
+
     def _first_within(self, us):
         """The task that is due first in the next `us`; of those due together the most urgent."""
         first = None

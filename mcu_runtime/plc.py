@@ -84,6 +84,7 @@ def step(n=1):
     """Scan n times, each one period later than the one before, whatever the clock says. Only while it is stopped."""
     if _running:
         raise RuntimeError("the PLC is running: plc.stop() first")
+    _controller.align()
     for _ in range(n):
         _controller.scan()
 
