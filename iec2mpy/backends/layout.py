@@ -110,7 +110,8 @@ class Layout:
         if isinstance(declared, ty.BlockType):
             return self.instance_record(declared.pou)
         if declared not in self._records:
-            self._records[declared] = self._lay_out(list(declared.fields.values()))
+            fields = list(declared.fields.values()) if declared.storage is None else [declared.storage]
+            self._records[declared] = self._lay_out(fields)
         return self._records[declared]
 
     def instance_record(self, pou: Pou) -> Record:

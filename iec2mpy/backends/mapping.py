@@ -107,6 +107,9 @@ def _type_leaves(
         inner = {array: (*dimensions[array], *_dimensions(shape, element.of(array))) for array in "VO"}
         path += f"[{',' * (len(shape.bounds) - 1)}]"
         yield from _type_leaves(layout, shape.element, path, at, inner, enums)
+    elif isinstance(shape, ty.StructType) and shape.storage is not None:
+        in_bits = tuple(replace(dimension, stride=8 * dimension.stride) for dimension in dimensions["V"])
+        yield from _packed_leaves(shape, path, 8 * at.v, in_bits, enums)
     elif isinstance(shape, (ty.StructType, ty.BlockType)):
         for variable, offset in layout.record(shape).offsets.items():
             if not (variable.by_reference or variable.hidden):

@@ -7,25 +7,22 @@ from collections.abc import Mapping
 from iec2mpy.semantics.defaults import default_value
 from iec2mpy.semantics.scope import UNKNOWN, GlobalScope, Scope
 from iec2mpy.semantics.typed import Value, Variable
-from iec2mpy.semantics.types import BOOL, BYTE, DWORD, WORD, ElementaryType, Type
+from iec2mpy.semantics.types import BOOL, BYTE, DWORD, LWORD, WORD, ElementaryType, Type
 from iec2mpy.source.spans import Span
 from iec2mpy.syntax import tree
 
-_TYPES: Mapping[str, ElementaryType] = {"X": BOOL, "B": BYTE, "W": WORD, "D": DWORD}
+_TYPES: Mapping[str, ElementaryType] = {"X": BOOL, "B": BYTE, "W": WORD, "D": DWORD, "L": LWORD}
 """The type of an address by its size (table 16), where no declaration gives it another."""
 
 
-def is_supported(scope: Scope, location: tree.DirectVariable) -> bool:
-    """Whether the address is one that this compiler has; reports the others."""
-    if location.size == "L":
-        scope.diagnostics.add("E0915", f"{location.text} has 64 bits: this is not supported yet.", location.span)
-    # an address without numbers (%I*) is one that the parser has reported
-    return location.size != "L" and bool(location.path)
+def is_complete(location: tree.DirectVariable) -> bool:
+    """Whether the address has numbers: one without (%I*) is one that the parser has reported."""
+    return bool(location.path)
 
 
 def direct_variable(scope: Scope, expr: tree.DirectVariable) -> Variable | None:
     """The variable of an address in an expression; it has the type that a declaration gives the address."""
-    if not is_supported(scope, expr):
+    if not is_complete(expr):
         return None
     world = scope.world
     found = world.direct.get(expr.text)

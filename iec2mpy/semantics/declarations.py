@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from iec2mpy.semantics.addresses import is_supported, unnamed_variable
+from iec2mpy.semantics.addresses import is_complete, unnamed_variable
 from iec2mpy.semantics.conversions import same_type
 from iec2mpy.semantics.defaults import default_value
 from iec2mpy.semantics.initial_values import initial_value
@@ -394,7 +394,7 @@ def _bind_external(scope: Scope, variable: Variable) -> None:
 
 
 def _no_address(scope: Scope, pou: Pou, location: tree.DirectVariable) -> None:
-    if is_supported(scope, location):
+    if is_complete(location):
         scope.diagnostics.add(
             "E0704",
             f"A variable of the {pou.kind.value} `{pou.name}` cannot have an address here.",
@@ -404,7 +404,7 @@ def _no_address(scope: Scope, pou: Pou, location: tree.DirectVariable) -> None:
 
 
 def _locate(scope: Scope, location: tree.DirectVariable, variable: Variable) -> None:
-    if not is_supported(scope, location):
+    if not is_complete(location):
         return
     if variable.type is not UNKNOWN and (what := _without_address(variable.type)):
         scope.diagnostics.add("E0704", f"{what} has no address.", location.span)
@@ -425,7 +425,7 @@ def _unnamed(scope: Scope, declaration: tree.VarDecl) -> None:
     location = declaration.location
     assert location is not None
     t = resolve_type(scope, declaration.type)
-    if t is UNKNOWN or not is_supported(scope, location):
+    if t is UNKNOWN or not is_complete(location):
         return
     variable = unnamed_variable(
         scope.world, location, t, initial_value(scope, t, declaration.initial), declaration.span

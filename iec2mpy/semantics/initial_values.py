@@ -47,6 +47,11 @@ def _merged(scope: Scope, t: Type, default: Value, initial: tree.Initial) -> Val
         _wrong_shape(scope, t, initial, "a list in square brackets is for an array")
         return default
     if isinstance(initial, tree.StructInitial):
+        if isinstance(shape, StructType) and shape.storage is not None:
+            # 6.4.4.7.2
+            message = f"{t} has no initial values: its members share their storage."
+            scope.diagnostics.add("E0701", message, initial.span, "Assign to one of its members in the body.")
+            return default
         if isinstance(shape, (StructType, BlockType)):
             assert isinstance(default, dict)
             return _members(scope, shape, default, initial)

@@ -14,6 +14,7 @@ from iec2mpy.semantics.types import (
     ArrayType,
     ElementaryType,
     Kind,
+    RefType,
     StructType,
     Type,
     unaliased,
@@ -24,8 +25,11 @@ _BYTE = 8
 
 
 def bit_size(t: Type) -> int | None:
-    """The bits that a value of the type takes; None for what has no place among bytes: strings, instances."""
+    """The bits that a value of the type takes; None for what has no place among bytes: strings, instances, and
+    references, which a number must not overwrite."""
     t = unaliased(t)
+    if isinstance(t, RefType):
+        return None
     if isinstance(t, ArrayType):
         stride = element_bits(t)
         return None if stride is None else stride * math.prod(t.lengths)
@@ -48,12 +52,14 @@ def element_bits(t: ArrayType) -> int | None:
 
 
 def field_offsets(t: StructType) -> dict[Variable, int]:
-    """Where each field of a structure begins, in bits; one after the other."""
+    """Where each field of a structure begins, in bits: where its address says, else behind the one before."""
     offsets: dict[Variable, int] = {}
     end = 0
     for field in t.fields.values():
         size = bit_size(field.type) or 0
         start = end if size == 1 else _whole_bytes(end)
+        if field.relative is not None:
+            start = field.relative
         offsets[field] = start
         end = start + size
     return offsets
@@ -79,10 +85,7 @@ def packed(t: Type, value: Value) -> int:
         return _joined(t, value, stride, len(t.bounds))
     if isinstance(t, StructType):
         assert isinstance(value, Mapping)
-        bits = 0
-        for field, offset in field_offsets(t).items():
-            bits = overlaid(bits, packed(field.type, value[field.key]), offset, bit_size(field.type) or 0)
-        return bits
+        return packed_fields(t, value)
     single = value_type(t)
     assert isinstance(single, ElementaryType)
     if single.kind is Kind.REAL:
@@ -90,6 +93,14 @@ def packed(t: Type, value: Value) -> int:
         return int.from_bytes(struct.pack("<f" if single.bits == 32 else "<d", value), "little")
     assert isinstance(value, int)
     return value & (1 << single.bits) - 1
+
+
+def packed_fields(t: StructType, values: Mapping[str, Value]) -> int:
+    """The bits of a structure, from the complete values of its fields."""
+    bits = 0
+    for field, offset in field_offsets(t).items():
+        bits = overlaid(bits, packed(field.type, values[field.key]), offset, bit_size(field.type) or 0)
+    return bits
 
 
 def _joined(t: ArrayType, value: Value, stride: int, dimensions: int) -> int:

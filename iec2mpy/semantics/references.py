@@ -250,6 +250,10 @@ def _member(scope: Scope, expr: tree.MemberExpr, use: Use) -> Expr | None:
     if field is None:
         _unknown_member(scope, t, expr.name, (f.name for f in t.fields.values()))
         return None
+    if use is Use.REFER and t.storage is not None:
+        message = f"`{field.name}` shares its storage with other members of {t}: it cannot be referred to."
+        scope.diagnostics.add("E0608", message, expr.span, "Refer to the whole structure.")
+        return None
     return _field(base, field, expr.span)
 
 

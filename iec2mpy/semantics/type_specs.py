@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from iec2mpy.semantics import constants, initial_values
+from iec2mpy.semantics import constants, initial_values, structures
 from iec2mpy.semantics.conversions import INTEGER_KINDS, type_named
 from iec2mpy.semantics.defaults import default_value
 from iec2mpy.semantics.scope import UNKNOWN, GlobalScope, Scope
@@ -291,12 +291,15 @@ def _struct(scope: Scope, spec: tree.StructSpec, name: str | None) -> Type:
     for field in spec.fields:
         element = resolve_type(scope, field.type)
         initial = initial_values.initial_value(scope, element, field.initial)
+        relative = structures.relative_offset(scope, field)
         for field_name in field.names:
             first = t.fields.get(field_name.key)
             if first is not None:
                 _duplicate(scope, field_name, first.span, "member")
             else:
-                t.fields[field_name.key] = Variable(field_name.text, element, None, field_name.span, initial)
+                member = Variable(field_name.text, element, None, field_name.span, initial, relative=relative)
+                t.fields[field_name.key] = member
+    structures.lay_out(scope, t, spec)
     return t
 
 

@@ -53,7 +53,8 @@ class Variable:
     For EXTERNAL, `target` is the global variable meant. `retain`: True for RETAIN, False for NON_RETAIN, and None where
     nothing is written: such a variable of an instance does as the instance does (6.5.6.2), others are not retained.
     `limits`: of an ARRAY[*], the variables of the same POU that hold its limits, (low, high) of each dimension.
-    `shared` is where a located variable lies that overlaps others.
+    `shared` is where a located variable lies that overlaps others. `relative`: the bit of its structure where a field
+    begins that has an address.
     `referred`: where there is a REF of it, so that it can be written under another name at any time.
     """
 
@@ -70,6 +71,7 @@ class Variable:
     shared: SharedPlace | None = None
     referred: Span | None = None
     limits: tuple[tuple[Variable, Variable], ...] = ()
+    relative: int | None = None
 
     @property
     def key(self) -> str:

@@ -210,10 +210,13 @@ class OpenArrayType:
 
 @dataclass(eq=False, slots=True)
 class StructType:
-    """`fields` by their case-folded names, in order. Filled after it is made, as a structure may hold others."""
+    """`fields` by their case-folded names, in order. Filled after it is made, as a structure may hold others.
+
+    `storage`: the bytes that the fields share, in one with OVERLAP: it holds these, and nothing else."""
 
     name: str
     fields: dict[str, Variable] = field(default_factory=dict)
+    storage: Variable | None = None
 
     def __str__(self) -> str:
         return self.name

@@ -202,9 +202,15 @@ def partial_direct(values: list[Any], diagnostics: Diagnostics) -> None:
 
 
 @action
-def relative_address(values: list[Any], diagnostics: Diagnostics) -> None:
-    """`AT %B0` in a structure (6.4.4.7); anywhere else it is no address."""
-    not_supported("E0910", f"Addresses relative to a structure (`{values[0].text}`) are", values[0].span, diagnostics)
+def relative_address(values: list[Any], diagnostics: Diagnostics) -> tree.RelativeAddress | None:
+    """`%B0`, `%X3.7` (6.4.4.7.1): an offset in bytes, and for a bit its number in the byte."""
+    token = values[0]
+    byte, dot, bit = token.text[1:].upper().lstrip("XBWDL").partition(".")
+    if bool(dot) != (not token.text[1].isalpha() or token.text[1] in "Xx"):
+        message = f"`{token.text}` is no place in a structure."
+        diagnostics.add("E0111", message, token.span, "Such as %B2 for a byte, %X2.7 for a bit of it.")
+        return None
+    return tree.RelativeAddress(int(byte), int(bit or 0), token.span)
 
 
 @action

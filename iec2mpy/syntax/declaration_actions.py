@@ -97,28 +97,25 @@ def open_bound(values: list[Any], _diagnostics: Diagnostics) -> tree.ArrayBound:
 @action
 def struct(values: list[Any], _diagnostics: Diagnostics) -> tree.StructSpec:
     word, fields, end = values
-    return tree.StructSpec(tuple(fields), over(word, end))
+    return tree.StructSpec(tuple(fields), False, over(word, end))
 
 
 @action
-def overlapping_struct(values: list[Any], diagnostics: Diagnostics) -> tree.StructSpec:
-    word, overlap, fields, end = values
-    not_supported("E0910", "OVERLAP is", overlap.span, diagnostics)
-    return tree.StructSpec(tuple(fields), over(word, end))
+def overlapping_struct(values: list[Any], _diagnostics: Diagnostics) -> tree.StructSpec:
+    word, _, fields, end = values
+    return tree.StructSpec(tuple(fields), True, over(word, end))
 
 
 @action
 def field(values: list[Any], _diagnostics: Diagnostics) -> tree.StructField:
     names, _, type_spec, initial, end = values
-    return tree.StructField(tuple(names), type_spec, initial, over(names[0], initial or type_spec or end))
+    return tree.StructField(tuple(names), None, type_spec, initial, over(names[0], initial or type_spec or end))
 
 
 @action
-def located_field(values: list[Any], diagnostics: Diagnostics) -> tree.StructField:
-    names, at, location, _, type_spec, initial, _ = values
-    if location is not None:
-        not_supported("E0910", "An address (`AT`) of a structure's member is", at.span, diagnostics)
-    return tree.StructField(tuple(names), type_spec, initial, over(names[0], initial or type_spec))
+def located_field(values: list[Any], _diagnostics: Diagnostics) -> tree.StructField:
+    names, _, location, _, type_spec, initial, _ = values
+    return tree.StructField(tuple(names), location, type_spec, initial, over(names[0], initial or type_spec))
 
 
 @action
@@ -242,14 +239,27 @@ def edge_variable(values: list[Any], _diagnostics: Diagnostics) -> tree.VarDecl:
 
 
 @action
-def located_variable(values: list[Any], _diagnostics: Diagnostics) -> tree.VarDecl:
+def located_variable(values: list[Any], diagnostics: Diagnostics) -> tree.VarDecl:
     names, _, location, _, type_spec, initial, _ = values
+    location = _absolute(location, diagnostics)
     return tree.VarDecl(tuple(names), location, type_spec, initial, over(names[0], initial or type_spec))
 
 
+def _absolute(
+    location: tree.DirectVariable | tree.RelativeAddress | None, diagnostics: Diagnostics
+) -> tree.DirectVariable | None:
+    """The address of a variable; one relative to a structure is reported, and stands for any."""
+    if not isinstance(location, tree.RelativeAddress):
+        return location
+    message = f"`{location.span.text}` is a place in a structure, and no address of a variable."
+    diagnostics.add("E0111", message, location.span, "Such as %IX0.0, %QW3, %MD48.")
+    return tree.DirectVariable("M", "X", (0,), location.span)
+
+
 @action
-def nameless_variable(values: list[Any], _diagnostics: Diagnostics) -> tree.VarDecl:
+def nameless_variable(values: list[Any], diagnostics: Diagnostics) -> tree.VarDecl:
     word, location, _, type_spec, initial, _ = values
+    location = _absolute(location, diagnostics)
     return tree.VarDecl((), location, type_spec, initial, over(word, initial or type_spec))
 
 

@@ -379,8 +379,20 @@ class RefSpec:
 
 
 @dataclass(frozen=True, slots=True)
+class RelativeAddress:
+    """`%B2`, `%X3.7`: a place from the start of a structure, `byte` bytes on and in it `bit` bits (6.4.4.7.1)."""
+
+    byte: int
+    bit: int
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class StructField:
+    """`names AT location : type := initial`."""
+
     names: tuple[Name, ...]
+    location: DirectVariable | RelativeAddress | None
     type: TypeSpec
     initial: Initial | None
     span: Span
@@ -388,7 +400,10 @@ class StructField:
 
 @dataclass(frozen=True, slots=True)
 class StructSpec:
+    """`overlap`: the fields may share storage."""
+
     fields: tuple[StructField, ...]
+    overlap: bool
     span: Span
 
 

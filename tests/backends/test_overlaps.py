@@ -25,6 +25,8 @@ VAR
   bits AT %MX20.0 : ARRAY[0..31] OF BOOL;
   words AT %MW10 : ARRAY[1..2] OF UINT;
   seen_first, seen_last, seen_nine : BOOL; seen_low : WORD; seen_high : INT; seen_real : REAL; seen_span : TIME;
+  long AT %ML100 : LWORD; real64 AT %ML100 : LREAL; int64 AT %ML100 : LINT; long_low AT %MD200 : DWORD;
+  long_top AT %MX807.7 : BOOL; seen_lreal : LREAL; seen_lint : LINT;
   seen_signed : DINT; k, ones : INT; shifted : DWORD; sum : UINT;
 END_VAR
 CASE mode OF
@@ -44,6 +46,10 @@ ones := 0;
 FOR k := 0 TO 31 DO IF bits[k] THEN ones := ones + 1; END_IF; END_FOR;
 sum := words[1] + words[2];
 shifted := SHR(%MD5, 4);
+IF mode = 10 THEN long := 16#C004_0000_0000_0001; long_low := long_low OR DWORD#2; END_IF;
+IF mode = 11 THEN real64 := 2.5; END_IF;
+IF mode = 12 THEN int64 := -2; long_top := FALSE; END_IF;
+seen_lreal := real64; seen_lint := int64;
 END_PROGRAM
 """
 
@@ -97,6 +103,29 @@ def test_views_of_the_same_bytes(engine: str) -> None:
             simulation.set("main.real_in", number)
             _check(simulation, struct.unpack("<I", struct.pack("<f", number))[0], 3)
             assert simulation.get("main.seen_real") == number
+
+
+@pytest.mark.parametrize("engine", ENGINE_TARGETS)
+def test_long_values(engine: str) -> None:
+    generated = compile_files([SourceFile("views.st", _VIEWS)], ENGINE_TARGETS[engine])
+    steps = [
+        (10, 0xC004_0000_0000_0003, -(2.5 + 3 * 2**-51)),
+        (11, 0x4004_0000_0000_0000, 2.5),
+        (12, 0x7FFF_FFFF_FFFF_FFFE, None),
+    ]
+    with Simulation(generated, engine) as simulation:
+        for mode, whole, real in steps:
+            simulation.set("main.mode", mode)
+            assert simulation.scan() is None
+            assert simulation.get("main.long") == whole
+            assert simulation.get("main.seen_lint") == _signed(whole, 64)
+            assert simulation.get("main.long_low") == whole & 0xFFFF_FFFF
+            if real is not None:
+                # a board with single precision reads what it can hold
+                seen = [simulation.get("main.seen_lreal"), simulation.get("main.real64")]
+                assert seen == pytest.approx([real, real])
+        simulation.set("main.real64", -2.5)
+        assert simulation.get("%ML100") == 0xC004_0000_0000_0000
 
 
 def test_values_from_outside() -> None:

@@ -13,8 +13,8 @@ from iec2mpy.semantics.types import ElementaryType
 from iec2mpy.simulator.session import Simulation
 from iec2mpy.source.spans import SourceFile
 
-_PARTS = {"X": ty.BOOL, "B": ty.BYTE, "W": ty.WORD}
-_WHOLES = (ty.BYTE, ty.WORD, ty.DWORD)
+_PARTS = {"X": ty.BOOL, "B": ty.BYTE, "W": ty.WORD, "D": ty.DWORD}
+_WHOLES = (ty.BYTE, ty.WORD, ty.DWORD, ty.LWORD)
 
 
 def _parts(of: ElementaryType) -> Iterator[tuple[str, ElementaryType, int]]:
@@ -43,8 +43,8 @@ def _text(of: ElementaryType) -> str:
 def test_every_part(of: ElementaryType, engine: str) -> None:
     generated = compile_files([SourceFile("parts.st", _text(of))], ENGINE_TARGETS[engine])
     with Simulation(generated, engine) as simulation:
-        for whole in (0, of.high, 1, 1 << of.bits - 1, 0xA5C3_961B & of.high, 0x7FFF_FFFF & of.high):
-            for given in (0, 0xFFFF, 0x8181, 0x5A7E):
+        for whole in (0, of.high, 1, 1 << of.bits - 1, 0xA5C3_961B_8001_7FFE & of.high, of.high >> 1):
+            for given in (0, 0xFFFF_FFFF, 0x8181_8181, 0x7E5A_5A7E):
                 simulation.set("main.whole", whole)
                 for name, part, _ in _parts(of):
                     simulation.set(f"main.w{name}", bool(given & 1) if part is ty.BOOL else given & part.high)

@@ -115,7 +115,6 @@ def test_warnings_of_lists_that_do_not_fit() -> None:
         ("v : LDT;", "E0914"),
         ("v : CTU_LINT;", "E0916"),
         ("v : main;", "E0707"),
-        ("v AT %ML0 : INT;", "E0915"),
         ("v : ARRAY[0..40000] OF INT;", "E0512"),
     ],
 )

@@ -35,7 +35,6 @@ def _body(text: str) -> str:
         (_body("VAR a AT %I* : BOOL; END_VAR"), [("E0908", 2)]),
         ("CONFIGURATION c\nPROGRAM p : m;\nVAR_CONFIG\nr.p.x AT %IX0.0 : BOOL;\nEND_VAR\nEND_CONFIGURATION",
          [("E0908", 3)]),
-        ("TYPE S : STRUCT OVERLAP a AT %B0 : INT; END_STRUCT; END_TYPE", [("E0910", 1), ("E0910", 1)]),
         ("CONFIGURATION c\nPROGRAM p : m(b WITH t);\nEND_CONFIGURATION", [("E0913", 2)]),
     ],
 )  # fmt: skip

@@ -112,9 +112,9 @@ def show(node: object) -> str:
             return f"{base.text if base else ''}({shown})"
         case tree.ArraySpec(bounds, element):
             return f"array[{_list(bounds)}] {show(element)}"
-        case tree.StructSpec(fields):
+        case tree.StructSpec(fields, _):
             return f"struct({_list(fields)})"
-        case tree.StructField(names, type_spec, initial):
+        case tree.StructField(names, _, type_spec, initial):
             return f"[{_list(names)} {show(type_spec)}{_initial(initial)}]"
         case tree.VarDecl(names, location, type_spec, initial):
             place = f" at {location.text}" if location else ""

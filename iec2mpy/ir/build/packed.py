@@ -145,7 +145,10 @@ def pack(context: Context, target: PackedPlace, source: n.Place) -> None:
 def _each(context: Context, plain: n.Place, packed: PackedPlace, copy: Callable[[n.Place, PackedPlace], None]) -> None:
     """Calls `copy` for each single value of the two places, which have the same type; inside of loops for arrays."""
     shape = plain.type
-    if isinstance(shape, ty.StructType):
+    if isinstance(shape, ty.StructType) and shape.storage is not None:
+        inner = n.Place(plain.root, (*plain.steps, n.Field(shape.storage)), shape.storage.type)
+        _each(context, inner, replace(packed, type=shape.storage.type), copy)
+    elif isinstance(shape, ty.StructType):
         for field in shape.fields.values():
             inner = n.Place(plain.root, (*plain.steps, n.Field(field)), ty.unaliased(field.type))
             _each(context, inner, field_of(packed, field), copy)

@@ -72,6 +72,8 @@ def lower_place(context: Context, expr: t.Expr, lower_expr: LowerExpr) -> n.Plac
             return variable_place(variable)
         case t.FieldRef(base, variable):
             whole = lower_place(context, base, lower_expr)
+            if isinstance(whole, n.Place) and isinstance(whole.type, ty.StructType) and whole.type.storage is not None:
+                whole = PackedPlace(fixed(context, field_place(whole, whole.type.storage)), 0, whole.type)
             return field_of(whole, variable) if isinstance(whole, PackedPlace) else field_place(whole, variable)
         case t.ElementRef(base, indices):
             base_place = lower_place(context, base, lower_expr)
