@@ -268,6 +268,8 @@ class ExpressionWriter:
             case n.Wrap(operand) if self._is_widened(operand, expr.type):
                 return self.boxing(operand)
         text = self.value(expr)
+        if expr.type is ty.BOOL and not self.viper:
+            return call("int", text)  # Python's True is no number in a list or in a text
         if isinstance(expr.type, ty.ElementaryType) and not expr.type.in_objects:
             return forms.unsigned(self.target, text, expr.type)
         return text
