@@ -10,6 +10,8 @@ PACKAGE = (
     "characters",
     "clock",
     "controller",
+    "date_texts",
+    "dates",
     "decimals",
     "faults",
     "memory",

@@ -4,6 +4,8 @@ The file is read line by line when something is asked for, as a board has no roo
 """
 
 from mcu_runtime.arithmetic import bits_to_lreal, bits_to_real, f32, lreal_to_bits, real_to_bits
+from mcu_runtime.date_texts import date_to_str, is_date, str_to_date
+from mcu_runtime.faults import Catchable, forget_tracebacks
 
 
 class Names:
@@ -63,6 +65,12 @@ _ELEMENTARY = (
     "TIME",
     "LTIME",
     "CHAR",
+    "DATE",
+    "TOD",
+    "DT",
+    "LDATE",
+    "LTOD",
+    "LDT",
     "STRING",
     "WSTRING",
 )
@@ -70,8 +78,9 @@ _ELEMENTARY = (
 
 class Place:
     """One variable. Values: BOOL bool, integers and bit strings int, TIME int (ms), LTIME int (ns), REAL and LREAL
-    float, STRING and WSTRING str, CHAR (a WCHAR too) a str of one character, an enumeration the name of the value, a
-    reference "NULL" or "not NULL". `low` and `high`: of a STRING 0 and its capacity, of a REAL or LREAL None.
+    float, STRING and WSTRING str, CHAR (a WCHAR too) a str of one character, dates and times of day their literal as a
+    str, an enumeration the name of the value, a reference "NULL" or "not NULL". `low` and `high`: of a STRING 0 and its
+    capacity, of a REAL or LREAL None.
 
     `array` is V or O; or B and a number of bits, for a variable among bytes that others share: each byte is in a slot
     of V, and `slot` counts bits from slot 0 on."""
@@ -125,6 +134,8 @@ class Place:
             return chr(stored)
         if self.type == "REF_TO":
             return "not NULL" if stored else "NULL"
+        if is_date(self.type):
+            return date_to_str(stored, self.type)
         for name, number in self._members.items():
             if number == stored:
                 return name
@@ -147,6 +158,8 @@ class Place:
             raise ValueError("%s is one of %s" % (self.path, ", ".join(self._members)))
         if self.type == "CHAR":
             return ord(self._text(value, 1, 1, self.high))
+        if is_date(self.type):
+            return self._date(value)
         if isinstance(value, bool):
             if self.type != "BOOL":
                 value = None
@@ -158,6 +171,14 @@ class Place:
             raise ValueError("%s is a %s: a whole number from %d to %d" % (self.path, self.type, self.low, self.high))
         value = int(value)
         return value - 0x100000000 if self.array == "V" and value > 0x7FFFFFFF else value
+
+    def _date(self, value):
+        try:
+            if isinstance(value, str):
+                return str_to_date(value, self.type, self.low, self.high)
+        except Catchable:
+            forget_tracebacks()
+        raise ValueError("%s is a %s: a text such as %s" % (self.path, self.type, date_to_str(0, self.type)))
 
     def _object(self, value):
         if self.high is None:

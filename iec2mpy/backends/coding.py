@@ -6,8 +6,9 @@ import struct
 from collections.abc import Callable, Mapping
 
 from iec2mpy.backends.forms import pattern
+from iec2mpy.semantics import calendar
 from iec2mpy.semantics.arithmetic import NANOSECONDS
-from iec2mpy.semantics.types import CHAR, WCHAR
+from iec2mpy.semantics.types import CHAR, ELEMENTARY, MOMENTS, WCHAR, ElementaryType
 from iec2mpy.syntax.time_literals import UNITS, value_of
 
 Enum = Mapping[str, int]
@@ -125,6 +126,25 @@ def _decode_enum(raw: object, enum: Enum) -> object:
     return next((name for name, number in enum.items() if number == raw), raw)
 
 
+def _encode_moment(of: ElementaryType, value: object, low: int, high: int) -> object:
+    example = calendar.text(0, of)
+    if not isinstance(value, str):
+        raise ValueError(f"{value!r} is no literal such as {example}")
+    try:
+        return _in_range(calendar.parse(value, of), low, high)
+    except ValueError:
+        raise ValueError(f"{value!r} is no literal such as {example}, or not one of its values") from None
+
+
+def _moment_coders(
+    of: ElementaryType,
+) -> tuple[Callable[[object, Enum], object], Callable[[object, int, int, Enum], object]]:
+    return (
+        lambda raw, _: calendar.text(_as_int(raw), of),
+        lambda value, low, high, _: _encode_moment(of, value, low, high),
+    )
+
+
 _CODERS: Mapping[str, tuple[Callable[[object, Enum], object], Callable[[object, int, int, Enum], object]]] = {
     "bool": (lambda raw, _: bool(raw), _encode_bool),
     "integer": (lambda raw, _: raw, _encode_integer),
@@ -139,6 +159,7 @@ _CODERS: Mapping[str, tuple[Callable[[object, Enum], object], Callable[[object, 
     "character": (lambda raw, _: chr(_as_int(raw)), _encode_character),
     "enum": (_decode_enum, _encode_enum),
     "reference": (lambda raw, _: "not NULL" if raw else "NULL", _encode_reference),
+    **{t.name.lower(): _moment_coders(t) for t in ELEMENTARY.values() if t.kind in MOMENTS},
 }
 
 
@@ -148,8 +169,8 @@ def _as_int(raw: object) -> int:
 
 
 def decode(kind: str, raw: object, enum: Enum) -> object:
-    """The value of a slot as it is shown: bool, int, float, str; a duration as `T#…` or `LT#…`, an enumeration as its
-    name."""
+    """The value of a slot as it is shown: bool, int, float, str; a duration, a date and a time of day as their
+    literals, an enumeration as its name."""
     return _CODERS[kind][0](raw, enum)
 
 

@@ -126,7 +126,7 @@ def _sign_extended(value: Text) -> Text:
 
 def load(target: Target, slot: Text, value_type: ty.ElementaryType, low: int) -> Text:
     """The value of a slot of V. `low`: the least value that it may have."""
-    if value_type.low == 0 and value_type.bits == 32:
+    if value_type.high >= 1 << 31:
         # a 64-bit viper loads 32 bits without a sign, a 32-bit one keeps the pattern
         return slot if target.word else infix(slot, "&", number(0xFFFFFFFF))
     if target.word == 64 and low < 0:

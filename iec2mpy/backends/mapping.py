@@ -163,10 +163,12 @@ def _leaf(
     if isinstance(shape, ty.EnumType):
         kind, type_name = "enum", shape.name
         enums[shape.name] = dict(shape.values)
+    elif stored.kind in ty.MOMENTS:
+        kind = stored.name.lower()
     elif stored.in_objects:
         kind = _WIDE_KINDS[stored]
     else:
-        kind = _KINDS.get(stored.kind, "unsigned32" if stored.bits == 32 and stored.low == 0 else "integer")
+        kind = _KINDS.get(stored.kind, "unsigned32" if stored.high >= 1 << 31 else "integer")
     if isinstance(shape, ty.RefType):
         low = high = 0  # only NULL can be written from outside
     return MappedVariable(path, type_name, kind, array, at.of(array), low, high, dimensions[array])

@@ -14,6 +14,7 @@ from dataclasses import asdict, dataclass, field
 
 from iec2mpy.backends.coding import decode, encode
 from iec2mpy.backends.shared_bytes import Patch, joined, places_of, split
+from iec2mpy.semantics.types import ELEMENTARY, MOMENTS
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,11 +93,8 @@ class BadValue(ValueError):
 
 
 _TOLD_BY_NAME = {
-    "bool": "BOOL",
-    "lreal": "LREAL",
-    "character": "CHAR",
-    "string": "STRING",
-    "wstring": "WSTRING",
+    **{"bool": "BOOL", "lreal": "LREAL", "character": "CHAR", "string": "STRING", "wstring": "WSTRING"},
+    **{t.name.lower(): t.name for t in ELEMENTARY.values() if t.kind in MOMENTS},
     "reference": "REF_TO",
 }
 """The types that the board tells by their name, by the kind of a variable."""

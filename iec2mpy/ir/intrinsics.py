@@ -57,6 +57,16 @@ INTRINSICS: Mapping[str, Runtime] = {
     "DELETE": Runtime("str_delete", "strings"),
     "REPLACE": Runtime("str_replace", "strings"),
     "FIND": Runtime("str_find", "strings"),
+    # dates and times of day (tables 26, 35, 36)
+    "floor_quotient": Runtime("floor_quotient", "dates"),
+    "floor_rest": Runtime("floor_rest", "dates"),
+    "concat_date": Runtime("concat_date", "dates", faults=True),
+    "concat_tod": Runtime("concat_tod", "dates", faults=True),
+    "year_of": Runtime("year_of", "dates"),
+    "month_of": Runtime("month_of", "dates"),
+    "day_of": Runtime("day_of", "dates"),
+    "date_to_str": Runtime("date_to_str", "date_texts"),
+    "str_to_date": Runtime("str_to_date", "date_texts", faults=True),
     # characters (6.4.2.2, table 27)
     "char_to_str": Runtime("chr", module=None),
     "str_to_char": Runtime("first_character", "characters"),

@@ -13,6 +13,7 @@ import struct
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 
+from iec2mpy.semantics import calendar
 from iec2mpy.semantics.typed import Scalar
 from iec2mpy.semantics.types import (
     CHAR,
@@ -20,6 +21,7 @@ from iec2mpy.semantics.types import (
     LREAL,
     LTIME,
     LWORD,
+    MOMENTS,
     REAL,
     TIME,
     WCHAR,
@@ -138,6 +140,9 @@ def binary(name: str, left: Scalar, right: Scalar, left_type: SingleType, right_
     assert isinstance(left_type, ElementaryType)
     if left_type.kind is Kind.REAL:
         return _real(left_type, _REAL[name], float(left), float(right))
+    if left_type.kind in MOMENTS:
+        assert isinstance(right_type, ElementaryType)
+        return _of_moment(name, int(left), int(right), left_type, right_type)
     if isinstance(right_type, ElementaryType) and right_type.kind is Kind.REAL:
         return _scaled_duration(name, int(left), float(right), left_type, right_type)
     assert isinstance(left, int) and isinstance(right, int)
@@ -158,6 +163,17 @@ def _scaled_duration(name: str, duration: int, factor: float, of: ElementaryType
         raise ArithmeticFault("range")
     exact = Fraction(duration) * Fraction(factor) if name == "*" else Fraction(duration) / Fraction(factor)
     return _in_range(round(exact), of)
+
+
+def _of_moment(name: str, left: int, right: int, of: ElementaryType, right_type: ElementaryType) -> int:
+    """A date or time of day and a duration, or the difference of two (table 35, 2 to 9). A time of day goes round."""
+    units = calendar.UNIT
+    moment = _INTEGER[name](left * units[of], right * units[right_type])
+    if right_type is of:
+        result = calendar.DURATION[of]
+        return wrap(moment // units[result], result)
+    value = moment // units[of]
+    return value % (of.high + 1) if of.kind is Kind.TIME_OF_DAY else wrap(value, of)
 
 
 def bitwise(name: str, left: int, right: int) -> int:
@@ -202,11 +218,21 @@ _BOOL_TEXT = {"FALSE": 0, "TRUE": 1, "0": 0, "1": 1}
 
 
 def _from_text(text: str, to: ElementaryType) -> int:
+    if to.kind in MOMENTS:
+        return _in_range(_calendar(calendar.parse, text, to), to)
     if to.kind is Kind.BOOL:
         if text.upper() not in _BOOL_TEXT:
             raise ArithmeticFault("range")
         return _BOOL_TEXT[text.upper()]
     return _in_range(_parse_integer(text), to)
+
+
+def _calendar(function: Callable[..., int], *arguments: object) -> int:
+    """What no calendar has faults."""
+    try:
+        return function(*arguments)
+    except ValueError:
+        raise ArithmeticFault("range") from None
 
 
 _UNKNOWN_CHARACTER = "?"
@@ -219,6 +245,8 @@ def _to_text(value: Scalar, source: SingleType, to: StringType) -> str:
         return text if to.wide else "".join(c if ord(c) <= CHAR.high else _UNKNOWN_CHARACTER for c in text)
     if source.kind is Kind.CHARACTER:
         return chr(int(value))
+    if source.kind in MOMENTS:
+        return calendar.text(int(value), source)
     return ("FALSE", "TRUE")[int(value)] if source.kind is Kind.BOOL else str(value)
 
 
@@ -271,6 +299,9 @@ def convert(value: Scalar, source: SingleType, to: SingleType, truncate: bool = 
     assert isinstance(value, int)
     if to.kind is Kind.REAL:
         return to_precision(float(value), to)
+    if source.kind in MOMENTS or to.kind in MOMENTS:
+        value = calendar.converted(value, source, to)
+        return wrap(value, to) if _is_bits(to) else _in_range(value, to)
     if source.kind is Kind.DURATION and to.kind is Kind.DURATION:
         value = value * NANOSECONDS if to is LTIME else truncating_divide(value, NANOSECONDS)
         return _in_range(value, to)
@@ -411,6 +442,8 @@ def builtin(name: str, arguments: Sequence[Scalar], result: SingleType) -> Scala
         assert isinstance(result, ElementaryType)
         return _real(result, _REAL_FUNCTIONS[name], *map(float, arguments))
     assert isinstance(result, ElementaryType)
+    if name in calendar.FUNCTIONS:
+        return _in_range(_calendar(calendar.FUNCTIONS[name], result, *arguments), result)
     value = arguments[0]
     if name == "ABS":
         return abs(value) if isinstance(value, float) else wrap(abs(int(value)), result)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from iec2mpy.semantics import conversion_functions, declarations, standard_calls
+from iec2mpy.semantics import conversion_functions, declarations, split_calls, standard_calls
 from iec2mpy.semantics.arguments import ArgumentMatch, match_arguments, missing_in_outs, pass_arguments
 from iec2mpy.semantics.control import Keep, keeper, standard_call, take_control
 from iec2mpy.semantics.references import Use, reference
@@ -42,6 +42,9 @@ def as_statement(scope: Scope, call: tree.CallExpr) -> Stmt | None:
         if function is not None:
             checked = _function(scope, call, function)
             return checked and CallFunction(checked, call.span)
+        signature = standard_function(call.callee.name)
+        if signature is not None and signature.outputs:
+            return split_calls.check(scope, call, signature)
         value = _standard(scope, call, None)
         if isinstance(value, StandardCall) and value.control.eno is not None:
             return CallFunction(value, call.span)
@@ -90,14 +93,18 @@ def _user_function(scope: Scope, callee: tree.NameExpr) -> Pou | None:
 
 def _function_value(scope: Scope, call: tree.CallExpr, function: Pou) -> Expr | None:
     if function.result is None:
-        scope.diagnostics.add(
-            "E0409",
-            f"The function `{function.name}` has no result.",
-            call.span,
-            "Call it in a statement of its own, and take its outputs with =>.",
-        )
+        _no_result(scope, call, function.name)
         return None
     return _function(scope, call, function)
+
+
+def _no_result(scope: Scope, call: tree.CallExpr, name: str) -> None:
+    scope.diagnostics.add(
+        "E0409",
+        f"The function `{name}` has no result.",
+        call.span,
+        "Call it in a statement of its own, and take its outputs with =>.",
+    )
 
 
 def _function(scope: Scope, call: tree.CallExpr, function: Pou) -> FunctionCall | None:
@@ -133,6 +140,9 @@ def _standard_value(scope: Scope, call: tree.CallExpr, expected: Type | None, ke
     name = call.callee.name
     is_clock = name.upper() == "TIME"  # the lexer lets it be a name only where the dialect has TIME()
     signature = standard_function("__NOW" if is_clock else name)
+    if signature is not None and signature.outputs:
+        _no_result(scope, call, signature.name)
+        return None
     if signature is not None and (is_clock or scope.is_stdlib or not name.startswith("__")):
         return standard_calls.check(scope, call, signature, expected, keep)
     conversion = conversion_functions.parse(name)
@@ -144,7 +154,7 @@ def _standard_value(scope: Scope, call: tree.CallExpr, expected: Type | None, ke
 
 def _unknown(scope: Scope, callee: tree.Expr, name: str) -> None:
     world, key, add = scope.world, name.casefold(), scope.diagnostics.add
-    if is_planned_function(name) or conversion_functions.is_planned(name):
+    if is_planned_function(name):
         add("E0916", f"The function {name.upper()} is not supported yet.", callee.span)
     elif key in world.pou_declarations:
         kind = world.pou_declarations[key].kind

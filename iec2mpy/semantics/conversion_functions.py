@@ -12,7 +12,7 @@ from iec2mpy.semantics.conversions import converts_explicitly, is_integer, is_re
 from iec2mpy.semantics.scope import Scope
 from iec2mpy.semantics.signatures import Parameter, Signature
 from iec2mpy.semantics.typed import Constant, Convert, Expr
-from iec2mpy.semantics.types import DINT, ELEMENTARY, NOT_YET, REAL, ElementaryType, StringType, Type, base_type
+from iec2mpy.semantics.types import DINT, REAL, ElementaryType, StringType, Type, base_type
 from iec2mpy.syntax import tree
 
 
@@ -26,8 +26,7 @@ class Conversion:
     truncate: bool
 
 
-_NAME = re.compile(r"(?:([A-Z]+)_)?(TO|TRUNC)_([A-Z]+)")
-_PLANNED = re.compile(r"(?:([A-Z_]+?)_)?(TO|TRUNC)_([A-Z_]+)")
+_NAME = re.compile(r"(?:([A-Z_]+?)_)?(TO|TRUNC)_([A-Z_]+)")
 
 
 def parse(name: str) -> Conversion | None:
@@ -46,13 +45,6 @@ def parse(name: str) -> Conversion | None:
     if truncate and (not (source is None or is_real(source)) or not is_integer(target)):
         return None
     return Conversion(name, source, target, truncate)
-
-
-def is_planned(name: str) -> bool:
-    """Whether it converts from or to a type that this compiler does not have yet."""
-    match = _PLANNED.fullmatch(name.upper())
-    known = {*ELEMENTARY, *NOT_YET, "STRING", "WSTRING"}
-    return match is not None and match[3] in known and (match[1] is None or match[1] in known)
 
 
 def check(

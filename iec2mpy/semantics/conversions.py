@@ -14,11 +14,15 @@ from iec2mpy.semantics.types import (
     LINT,
     LREAL,
     LTIME,
+    LTOD,
     LWORD,
+    MOMENTS,
     NULL_TYPE,
+    OTHER_NAMES,
     REAL,
     SINT,
     TIME,
+    TOD,
     UDINT,
     UINT,
     ULINT,
@@ -54,6 +58,7 @@ _WIDER: Mapping[ElementaryType, tuple[ElementaryType, ...]] = {
     WORD: (DWORD, LWORD),
     DWORD: (LWORD,),
     TIME: (LTIME,),
+    TOD: (LTOD,),
 }
 """Figure 12: the conversions that keep every value; the nearest types first."""
 
@@ -147,7 +152,7 @@ def converts_explicitly(source: ElementaryType | StringType, target: ElementaryT
     """Whether there is a function SOURCE_TO_TARGET (tables 22 to 25, 27)."""
     if isinstance(source, StringType) or isinstance(target, StringType):
         string, other = (source, target) if isinstance(source, StringType) else (target, source)
-        if isinstance(other, StringType) or other.kind in INTEGER_KINDS or other is BOOL:
+        if isinstance(other, StringType) or other.kind in INTEGER_KINDS | MOMENTS or other is BOOL:
             return True
         return isinstance(string, StringType) and other is string.character
     if source is target or (source, target) in _DIRECT_PATTERN:
@@ -156,12 +161,28 @@ def converts_explicitly(source: ElementaryType | StringType, target: ElementaryT
         # a character counts as its code, which is a number or bits
         other = target if source.kind is Kind.CHARACTER else source
         return other.kind in INTEGER_KINDS | {Kind.BITS, Kind.CHARACTER}
+    if source.kind in MOMENTS or target.kind in MOMENTS:
+        return _converts_moment(source, target)
     # A REAL has no bits to cut or to fill: only DWORD has its width, as LWORD that of an LREAL. BOOL counts as 0 or 1.
     if Kind.REAL in (source.kind, target.kind):
         other = target if source.kind is Kind.REAL else source
         numbers = NUMBER_KINDS | {Kind.DURATION}
         return other.kind in numbers or (other is BOOL and target.kind is Kind.REAL)
     return True
+
+
+def _converts_moment(source: ElementaryType, target: ElementaryType) -> bool:
+    """Table 26, and numbers. What a type does not contain is not made up: a DATE has no time of day."""
+    contained = {
+        Kind.DATE: {Kind.DATE},
+        Kind.TIME_OF_DAY: {Kind.TIME_OF_DAY, Kind.DURATION},
+        Kind.DATE_AND_TIME: MOMENTS,
+        Kind.DURATION: {Kind.TIME_OF_DAY},
+    }
+    if (source.kind, target.kind) == (Kind.DATE, Kind.DATE_AND_TIME):
+        return True  # the start of the day
+    numbers = INTEGER_KINDS | {Kind.BITS}
+    return target.kind in contained.get(source.kind, ()) or numbers & {source.kind, target.kind} != set()
 
 
 def conversion_name(source: Type, target: Type) -> str | None:
@@ -177,4 +198,6 @@ def conversion_name(source: Type, target: Type) -> str | None:
 def type_named(name: str) -> ElementaryType | StringType | None:
     """The elementary type of that name, in any letter case; STRING and WSTRING with their usual length."""
     name = name.upper()
-    return StringType(wide=name == "WSTRING") if name in ("STRING", "WSTRING") else ELEMENTARY.get(name)
+    if name in ("STRING", "WSTRING"):
+        return StringType(wide=name == "WSTRING")
+    return ELEMENTARY.get(name) or OTHER_NAMES.get(name)

@@ -5,15 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-from iec2mpy.semantics.arithmetic import NANOSECONDS, to_precision, truncating_divide
+from iec2mpy.semantics.arithmetic import to_precision, truncating_divide
+from iec2mpy.semantics.calendar import TYPE_OF_PREFIX, UNIT
 from iec2mpy.semantics.conversions import UNTYPED_INT, UNTYPED_REAL, type_named
 from iec2mpy.semantics.scope import Scope
 from iec2mpy.semantics.typed import Constant
 from iec2mpy.semantics.types import (
     BOOL,
+    LDATE,
+    LDT,
     LREAL,
     LTIME,
-    NOT_YET,
+    MOMENTS,
     NULL_TYPE,
     REAL,
     TIME,
@@ -25,21 +28,11 @@ from iec2mpy.semantics.types import (
 )
 from iec2mpy.syntax import tree
 
-_DATES = {"date": "Dates", "tod": "Times of day", "dt": "Dates with a time"}
-
 
 def literal(scope: Scope, expr: tree.Literal, expected: Type | None) -> Constant | None:
     """The constant that a literal stands for; None after a diagnostic. `expected` is the type that its place needs: it
     tells whether 'A' is a string or a character (table 6)."""
     prefix = (expr.prefix or "").upper()
-    if expr.kind in _DATES:
-        what = f"The type {prefix}" if prefix in NOT_YET else _DATES[expr.kind]
-        verb = "is" if prefix in NOT_YET else "are"
-        scope.diagnostics.add("E0914", f"{what} {verb} not supported yet.", expr.span)
-        return None
-    if prefix in NOT_YET:
-        scope.diagnostics.add("E0914", f"The type {prefix} is not supported yet.", expr.span)
-        return None
     if expr.kind in ("string", "wstring"):
         return _text(scope, expr, prefix, expected)
     return _LITERALS[expr.kind](scope, expr, prefix)
@@ -51,7 +44,7 @@ def _integer(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
     if not prefix:
         return Constant(value, UNTYPED_INT, expr.span)
     t = type_named(prefix)
-    if not isinstance(t, ElementaryType) or t.kind is Kind.DURATION:
+    if not isinstance(t, ElementaryType) or t.kind in _WITHOUT_NUMBERS:
         _no_such_literal(scope, expr, prefix)
         return None
     if t.kind is Kind.REAL:
@@ -105,19 +98,25 @@ def _text(scope: Scope, expr: tree.Literal, prefix: str, expected: Type | None) 
     return Constant(text, t, expr.span)
 
 
+_WITHOUT_NUMBERS = frozenset((Kind.DURATION, Kind.CHARACTER)) | MOMENTS
+"""No number is a literal of these."""
 _LONGEST = {
     TIME: "TIME holds up to T#24d20h31m23s647ms, about 24.8 days; LTIME, written LT#, holds 292 years.",
     LTIME: "LTIME holds up to 292 years.",
+    LDATE: "LDATE holds the years 1678 to 2261; DATE holds 1 to 9999.",
+    LDT: "LDT holds the years 1678 to 2261; DT holds 1 to 9999.",
 }
 
 
-def _duration(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
+def _of_time(scope: Scope, expr: tree.Literal, prefix: str) -> Constant | None:
+    """A duration, a date or a time of day (tables 8 and 9): what is finer than its type is cut off."""
     assert isinstance(expr.value, int)
-    t = LTIME if prefix in ("LT", "LTIME") else TIME
-    value = expr.value if t is LTIME else truncating_divide(expr.value, NANOSECONDS)
+    t = TYPE_OF_PREFIX[prefix]
+    value = truncating_divide(expr.value, UNIT[t]) if t.kind is Kind.DURATION else expr.value // UNIT[t]
     if t.low <= value <= t.high:
         return Constant(value, t, expr.span)
-    scope.diagnostics.add("E0501", f"This duration is too long for {t}.", expr.span, _LONGEST[t])
+    what = f"This duration is too long for {t}." if t.kind is Kind.DURATION else f"{t} does not go to this date."
+    scope.diagnostics.add("E0501", what, expr.span, _LONGEST[t])
     return None
 
 
@@ -136,6 +135,6 @@ _LITERALS: Mapping[str, Callable[[Scope, tree.Literal, str], Constant | None]] =
     "bool": _bool,
     "int": _integer,
     "real": _real,
-    "duration": _duration,
+    **dict.fromkeys(("duration", "date", "tod", "dt"), _of_time),
     "null": _null,
 }

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 from iec2mpy.semantics import arithmetic, loose
 from iec2mpy.semantics.arithmetic import COMPARISONS, ArithmeticFault
+from iec2mpy.semantics.calendar import DURATION
 from iec2mpy.semantics.coercion import coerce, convert, describe, fits_literal, is_number, typed_literal
 from iec2mpy.semantics.conversions import (
     BIT_KINDS,
@@ -15,6 +16,7 @@ from iec2mpy.semantics.conversions import (
     UNTYPED_REAL,
     common_type,
     conversion_name,
+    converts_implicitly,
     is_untyped,
     joined_type,
 )
@@ -23,6 +25,7 @@ from iec2mpy.semantics.typed import Binary, Constant, Convert, Expr, Scalar, Una
 from iec2mpy.semantics.types import (
     BOOL,
     LREAL,
+    MOMENTS,
     REAL,
     BlockType,
     ElementaryType,
@@ -78,6 +81,8 @@ def binary(scope: Scope, operator: str, left: Expr, right: Expr, operator_span: 
         return number and _node(scope, operator, left, number, base_type(left.type), span)
     if operator == "**":
         return _power(scope, left, right, operator_span, span)
+    if operator in ("+", "-") and _is_kind(left.type, MOMENTS):
+        return _of_moment(scope, operator, left, right, operator_span, span)
     pair = _paired(scope, operator, _operand(operator, left), _operand(operator, right), operator_span, span)
     if pair is None:
         return None
@@ -232,6 +237,8 @@ def _operand_hint(operator: str, operand: Expr) -> str | None:
     if _is_kind(t, frozenset((Kind.BITS,))) and operator in ("+", "-", "*", "/", "MOD"):
         number = loose.of_kind(t, Kind.UNSIGNED)
         return with_dialects("bits-are-numbers", f"Convert it with {t}_TO_{number}.")
+    if _is_kind(t, MOMENTS) and operator in ("+", "-"):
+        return "A date or time of day stands first: TOD#12:00:00 + T#1h."
     if operator == "**" and (name := conversion_name(t, REAL)):
         return f"Convert it with {name}."
     if t is BOOL and operator in ("+", "-", "*", "/"):
@@ -252,6 +259,25 @@ def _different(scope: Scope, operator: str, left: Expr, right: Expr, operator_sp
 
 
 # ------------------------------------------------------------------------------------------ special operators
+
+
+def _of_moment(scope: Scope, operator: str, left: Expr, right: Expr, operator_span: Span, span: Span) -> Expr | None:
+    """A date or time of day + or - a duration, or the difference of two (table 35, 2 to 9)."""
+    moment, other = _elementary(left), base_type(right.type)
+    difference = common_type(moment, other) if operator == "-" and isinstance(other, ElementaryType) else None
+    if difference is not None:
+        return _node(scope, operator, convert(left, difference), convert(right, difference), DURATION[difference], span)
+    if moment.kind is not Kind.DATE and converts_implicitly(other, DURATION[moment]):
+        return _node(scope, operator, left, convert(right, DURATION[moment]), moment, span)
+    if moment.kind is Kind.DATE and _is_kind(other, _DURATION):
+        hint = f"A {moment} is a whole day. Convert it with {moment}_TO_DT, and go on with that."
+    elif is_number(other):
+        hint = "Write a duration such as T#1h30m, or multiply T#1s by the number."
+    else:
+        added = "" if moment.kind is Kind.DATE else f"A {DURATION[moment]} can be added and subtracted. "
+        hint = f"{added}The difference of two {moment} is a {DURATION[moment]}."
+    scope.diagnostics.add("E0303", f"`{operator}` cannot join {moment} and {describe(other)}.", operator_span, hint)
+    return None
 
 
 def _power(scope: Scope, left: Expr, right: Expr, operator_span: Span, span: Span) -> Expr | None:

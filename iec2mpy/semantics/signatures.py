@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -26,7 +26,8 @@ class Parameter:
 class Signature:
     """A standard function. `fixed` is the type that a typed name gives to the generic type `generic` (`ADD_INT`).
 
-    `operator` is the operator that the function is another name of, or None; `name` is without the type.
+    `operator` is the operator that the function is another name of, or None; `name` is without the type. `separate`:
+    each generic input has a type of its own. A function with `outputs` has no result.
     """
 
     name: str
@@ -36,6 +37,8 @@ class Signature:
     extensible: bool = False
     optional: bool = False
     fixed: ElementaryType | StringType | None = None
+    separate: bool = False
+    outputs: tuple[Parameter, ...] = ()
 
     @property
     def generic(self) -> str | None:
@@ -81,14 +84,20 @@ def _functions() -> Mapping[str, Signature]:
     return {
         name: Signature(
             name,
-            tuple(Parameter(*text.split(": ")) for text in row["inputs"]),
-            row["result"],
+            _parameters(row["inputs"]),
+            row.get("result", ""),
             row.get("operator"),
             row.get("extensible", False),
             row.get("optional", False),
+            separate=row.get("separate", False),
+            outputs=_parameters(row.get("outputs", [])),
         )
         for name, row in _data()["functions"].items()
     }
+
+
+def _parameters(texts: Sequence[str]) -> tuple[Parameter, ...]:
+    return tuple(Parameter(*text.split(": ")) for text in texts)
 
 
 def generic_members(generic: str) -> list[str]:
@@ -105,7 +114,7 @@ def standard_function(name: str) -> Signature | None:
         return found
     stem, _, suffix = name.rpartition("_")
     generic = _functions().get(stem) or _with_selector(stem)
-    if generic is None or generic.generic is None or suffix not in generic_members(generic.generic):
+    if generic is None or generic.separate or generic.generic is None or suffix not in generic_members(generic.generic):
         return None
     return replace(generic, fixed=type_named(suffix))
 

@@ -172,13 +172,16 @@ def _builtin(
     scope: Scope, call: tree.CallExpr, signature: Signature, values: list[Expr | None], expected: Type | None
 ) -> Expr | None:
     found: dict[str, Type] = {}
-    positions: dict[str, list[int]] = {}
+    positions: dict[str | int, list[int]] = {}
     for number in range(len(values)):
         parameter = signature.parameter(number)
         assert parameter is not None
         if _concrete(signature, parameter) is None:
-            positions.setdefault(parameter.type, []).append(number)
-    for generic, numbers in positions.items():
+            positions.setdefault(number if signature.separate else parameter.type, []).append(number)
+    for numbers in positions.values():
+        parameter = signature.parameter(numbers[0])
+        assert parameter is not None
+        generic = parameter.type
         hint = expected if generic == signature.result else None
         group = [value for i in numbers if (value := values[i]) is not None]
         unified = _unify(scope, signature, generic, group, hint)

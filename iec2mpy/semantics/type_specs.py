@@ -15,7 +15,6 @@ from iec2mpy.semantics.types import (
     DEFAULT_STRING_LENGTH,
     ELEMENTARY,
     INT,
-    NOT_YET,
     AliasType,
     ArrayType,
     ElementaryType,
@@ -99,9 +98,7 @@ def _named(scope: Scope, spec: tree.NamedTypeSpec, name: str | None) -> Type:
     t = type_named(text) or named_type(world, spec.name.key)
     if t is not None:
         return t
-    if text.upper() in NOT_YET:
-        scope.diagnostics.add("E0914", f"The type {text.upper()} is not supported yet.", spec.span)
-    elif is_planned_block(text):
+    if is_planned_block(text):
         scope.diagnostics.add("E0916", f"The standard block {text.upper()} is not supported yet.", spec.span)
     elif spec.name.key in world.pou_declarations:
         kind = world.pou_declarations[spec.name.key].kind
@@ -163,15 +160,12 @@ def _base(scope: Scope, name: tree.Name, what: str, kinds: frozenset[Kind] = INT
     t = type_named(name.text)
     if isinstance(t, ElementaryType) and t.kind in kinds:
         return t
-    if name.text.upper() in NOT_YET:
-        scope.diagnostics.add("E0914", f"The type {name.text.upper()} is not supported yet.", name.span)
-    else:
-        scope.diagnostics.add(
-            "E0310",
-            f"{what} is made of an integer type, and `{name.text}` is none.",
-            name.span,
-            "Use INT, DINT, UINT or their like.",
-        )
+    scope.diagnostics.add(
+        "E0310",
+        f"{what} is made of an integer type, and `{name.text}` is none.",
+        name.span,
+        "Use INT, DINT, UINT or their like.",
+    )
     return None
 
 

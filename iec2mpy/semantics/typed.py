@@ -15,7 +15,8 @@ from iec2mpy.syntax.tree import Edge, PouKind, Section
 
 Scalar = int | float | str
 """A value as it is stored: BOOL 0 or 1, integers, bit strings and enumerations their (mathematical) number, TIME
-milliseconds, LTIME nanoseconds, CHAR and WCHAR their code, REAL and LREAL float, STRING and WSTRING str, NULL 0."""
+milliseconds, LTIME nanoseconds, dates and times of day what `types.py` says, CHAR and WCHAR their code, REAL and LREAL
+float, STRING and WSTRING str, NULL 0."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -284,7 +285,8 @@ class Unary:
 
 @dataclass(frozen=True, slots=True)
 class Binary:
-    """Both operands have the same base type, except for a duration * or / a number, where `left` is the duration.
+    """Both operands have the same base type, except for a duration * or / a number, and a date or time of day + or - a
+    duration: there it is `left`.
 
     `operator`: + - * / MOD ** AND OR XOR = <> < > <= >=; `type` is BOOL for comparisons. Strings may differ in length.
     """
@@ -409,6 +411,17 @@ class CallFunction:
 
 
 @dataclass(frozen=True, slots=True)
+class Split:
+    """SPLIT_DATE and its like: the parts of a date or time of day that the parameters of `outputs` name. These are
+    variables of this call only."""
+
+    operand: Expr
+    outputs: tuple[OutputArgument, ...]
+    control: Control | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class CallBlock:
     """An instance invoked. `instance` is an Expr of a BlockType; inputs left out keep their values."""
 
@@ -477,4 +490,4 @@ class Return:
     span: Span
 
 
-Stmt = Assign | CallFunction | CallBlock | If | Case | For | While | Repeat | Exit | Continue | Return
+Stmt = Assign | CallFunction | Split | CallBlock | If | Case | For | While | Repeat | Exit | Continue | Return

@@ -24,8 +24,15 @@ class Kind(Enum):
     BITS = "bit string"
     REAL = "real"
     DURATION = "duration"
+    DATE = "date"
+    TIME_OF_DAY = "time of day"
+    DATE_AND_TIME = "date and time"
     CHARACTER = "character"
     REFERENCE = "reference"
+
+
+MOMENTS = frozenset((Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME))
+"""Dates and times of day: ANY_DATE of figure 5."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +89,12 @@ REAL = ElementaryType("REAL", Kind.REAL, 32, 0, 0)
 LREAL = ElementaryType("LREAL", Kind.REAL, 64, 0, 0)
 TIME = _signed("TIME", 32, Kind.DURATION)  # milliseconds
 LTIME = _signed("LTIME", 64, Kind.DURATION)  # nanoseconds
+DATE = ElementaryType("DATE", Kind.DATE, 32, -719_162, 2_932_896)  # days since 1970-01-01, of the years 1 to 9999
+TOD = ElementaryType("TOD", Kind.TIME_OF_DAY, 32, 0, 86_400_000 - 1)  # milliseconds
+DT = _signed("DT", 64, Kind.DATE_AND_TIME)  # milliseconds since 1970-01-01
+LDATE = _signed("LDATE", 64, Kind.DATE)  # nanoseconds since 1970-01-01, whole days
+LTOD = ElementaryType("LTOD", Kind.TIME_OF_DAY, 64, 0, 86_400_000_000_000 - 1)  # nanoseconds
+LDT = _signed("LDT", 64, Kind.DATE_AND_TIME)  # nanoseconds since 1970-01-01
 CHAR = _unsigned("CHAR", 8, Kind.CHARACTER)  # the character's code
 WCHAR = _unsigned("WCHAR", 16, Kind.CHARACTER)
 
@@ -96,26 +109,18 @@ ELEMENTARY: Mapping[str, ElementaryType] = {
     t.name: t
     for t in (
         *(BOOL, SINT, INT, DINT, LINT, USINT, UINT, UDINT, ULINT, BYTE, WORD, DWORD, LWORD),
-        *(REAL, LREAL, TIME, LTIME, CHAR, WCHAR),
+        *(REAL, LREAL, TIME, LTIME, DATE, TOD, DT, LDATE, LTOD, LDT, CHAR, WCHAR),
     )
 }
 """By name, in capitals. STRING and WSTRING have a length, and are `StringType`."""
 
-NOT_YET = frozenset(
-    [
-        "DATE",
-        "LDATE",
-        "TOD",
-        "TIME_OF_DAY",
-        "LTOD",
-        "LTIME_OF_DAY",
-        "DT",
-        "DATE_AND_TIME",
-        "LDT",
-        "LDATE_AND_TIME",
-    ]
-)
-"""Elementary types of the standard that this compiler does not have yet."""
+OTHER_NAMES: Mapping[str, ElementaryType] = {
+    "TIME_OF_DAY": TOD,
+    "DATE_AND_TIME": DT,
+    "LTIME_OF_DAY": LTOD,
+    "LDATE_AND_TIME": LDT,
+}
+"""The long names of types that have a short one (table 10)."""
 
 DEFAULT_STRING_LENGTH = 254
 

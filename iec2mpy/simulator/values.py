@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 
 from iec2mpy.backends.memory_map import BadValue, Leaf, MemoryMap, Node
 
-_AS_WRITTEN = ("string", "wstring", "character", "enum", "duration", "ltime", "reference")
+_NOT_AS_WRITTEN = ("bool", "integer", "unsigned32", "integer64", "real", "lreal")
 
 REAL_TOLERANCE = 1e-5
 """REAL values are compared to 1 part in 100,000."""
@@ -65,7 +65,7 @@ def show(value: object) -> str:
 def parse_value(node: Node, text: str) -> object:
     """The value that a user wrote on a command line for a variable: as in a case file, but texts without quotes, and
     TRUE and FALSE in any letter case. What is wrong with it is found when it is written."""
-    if isinstance(node, Leaf) and node.variable.kind in _AS_WRITTEN:
+    if isinstance(node, Leaf) and node.variable.kind not in _NOT_AS_WRITTEN:
         return text
     lower = text.strip().lower()
     try:

@@ -153,7 +153,6 @@ CODES: dict[str, Code] = {
     "E0907": Code("access paths are not supported yet", "syntax"),
     "E0908": Code("partly specified addresses are not supported yet", "syntax"),
     "E0913": Code("tasks of single blocks are not supported yet", "syntax"),
-    "E0914": Code("type is not supported yet", "type"),
     "E0915": Code("this is not supported yet", "syntax"),
     "E0916": Code("standard function is not supported yet", "call"),
     "E0918": Code("this part of a configuration is not supported yet", "config"),

@@ -35,6 +35,7 @@ IMPLICIT = {
     "WORD": "DWORD LWORD",
     "DWORD": "LWORD",
     "TIME": "LTIME",
+    "TOD": "LTOD",
 }
 
 

@@ -161,7 +161,6 @@ def test_constants_of_the_program_are_folded() -> None:
         ("w : WORD; b : BOOL;", "b := w = NOT 0;", "E0313"),
         ("i : INT;", "i := i.x;", "E0307"),
         ("t : TON; i : INT;", "i := t;", "E0301"),
-        ("d : LDT;", ";", "E0914"),
     ],
 )
 def test_wrong_expressions(variables: str, body: str, code: str) -> None:

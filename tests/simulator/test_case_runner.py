@@ -161,7 +161,7 @@ def test_program_without_the_expected_error(tmp_path: Path) -> None:
 
 
 def test_what_is_not_supported_yet_is_not_the_expected_error(tmp_path: Path) -> None:
-    source = "PROGRAM main\nVAR x : LDT; y : LTOD; END_VAR\nEND_PROGRAM\n"
+    source = "PROGRAM main\nVAR x : RTC; END_VAR\nEND_PROGRAM\n"
     result = _run(tmp_path, source, 'error = { line = 2, about = "type" }')
     assert result.outcome == FAILED
     assert result.diagnostics[0].code.startswith("E09")

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.conversions import fit_string
+from iec2mpy.ir.build.moments import concatenated, day_of_week, together
 from iec2mpy.ir.intrinsics import INTRINSICS
 from iec2mpy.ir.walk import may_fault
 from iec2mpy.semantics import types as ty
@@ -128,7 +129,23 @@ def _shift_count(context: Context, count: n.Expr, width: int) -> n.Expr:
     return context.spill(n.Select(fits, low, beyond, ty.UINT))
 
 
+def _concatenated(context: Context, _name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    return concatenated(context, arguments, result)
+
+
+def _together(context: Context, _name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    day, time = arguments
+    return together(context, day, time, result)
+
+
+def _day_of_week(_context: Context, _name: str, arguments: list[n.Expr], _result: n.ValueType) -> n.Expr:
+    return day_of_week(arguments[0])
+
+
 _LOWERINGS: dict[str, Lowering] = {
+    **dict.fromkeys(("CONCAT_DATE", "CONCAT_TOD", "CONCAT_LTOD", "CONCAT_DT", "CONCAT_LDT"), _concatenated),
+    **dict.fromkeys(("CONCAT_DATE_TOD", "CONCAT_DATE_LTOD"), _together),
+    "DAY_OF_WEEK": _day_of_week,
     "__NOW": _now,
     "__NOW_LTIME": _now,
     "ABS": _abs,

@@ -8,6 +8,7 @@ from __future__ import annotations
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build.checks import check_range
 from iec2mpy.ir.build.context import Context
+from iec2mpy.ir.build.moments import convert_moment
 from iec2mpy.semantics import types as ty
 from iec2mpy.semantics.arithmetic import NANOSECONDS
 from iec2mpy.semantics.types import Kind
@@ -23,6 +24,8 @@ _TO_STRING = {
 }
 _LONGEST_NUMBER = 30
 """No number, truth value or duration has more characters than that."""
+_LONGEST_DATE = 40
+"""Nor one literal of a date."""
 _BITS = (Kind.BOOL, Kind.BITS)
 _UNSIGNED = {1: ty.BOOL, 8: ty.BYTE, 16: ty.WORD, 32: ty.DWORD, 64: ty.LWORD}
 _PATTERNS = {
@@ -51,6 +54,8 @@ def convert(context: Context, value: n.Expr, target: n.ValueType, truncate: bool
         return _from_real(context, value, target, truncate)
     if target.kind is Kind.REAL:
         return n.ToReal(value, target)
+    if source.kind in ty.MOMENTS or target.kind in ty.MOMENTS:
+        return convert_moment(context, value, target)
     if target.kind is Kind.BOOL:
         # to BOOL the lowest bit is kept (table 24)
         lowest = n.Op("and", n.Wrap(value, ty.DWORD), n.Const(1, ty.DWORD), ty.DWORD)
@@ -94,7 +99,10 @@ def _from_real(context: Context, value: n.Expr, target: ty.ElementaryType, trunc
 
 def _to_string(value: n.Expr, target: ty.StringType) -> n.Expr:
     source = value.type
-    if not isinstance(source, ty.StringType):
+    if not isinstance(source, ty.StringType) and source.kind in ty.MOMENTS:
+        name = n.Const(source.name, ty.StringType(len(source.name)))
+        value = n.Intrinsic("date_to_str", (value, name), ty.StringType(_LONGEST_DATE, target.wide))
+    elif not isinstance(source, ty.StringType):
         longest = 1 if source.kind is Kind.CHARACTER else _LONGEST_NUMBER
         value = n.Intrinsic(_TO_STRING[source.kind], (value,), ty.StringType(longest, target.wide))
     elif source.wide and not target.wide:
@@ -112,7 +120,11 @@ def _from_string(context: Context, value: n.Expr, target: ty.ElementaryType) -> 
         return n.Intrinsic("str_to_bool", (value,), target)
     if target.kind is Kind.DURATION:
         return n.Intrinsic("str_to_time", (value,), target)
-    return n.Intrinsic("str_to_int", (value, n.Const(target.low, target), n.Const(target.high, target)), target)
+    bounds = (n.Const(target.low, target), n.Const(target.high, target))
+    if target.kind in ty.MOMENTS:
+        name = n.Const(target.name, ty.StringType(len(target.name)))
+        return n.Intrinsic("str_to_date", (value, name, *bounds), target)
+    return n.Intrinsic("str_to_int", (value, *bounds), target)
 
 
 def fit_string(value: n.Expr, target: ty.StringType) -> n.Expr:

@@ -7,6 +7,7 @@ from iec2mpy.ir.build import calls, controlled
 from iec2mpy.ir.build.builtins import lower_builtin, power
 from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.conversions import convert, real_result
+from iec2mpy.ir.build.moments import add_or_subtract, as_object
 from iec2mpy.ir.build.packed import PackedPlace, load, pack, unpack
 from iec2mpy.ir.build.parts import read_part, with_part
 from iec2mpy.ir.build.places import fixed, lower_place, plain_place
@@ -242,6 +243,8 @@ def _binary(context: Context, operator: str, left: n.Expr, right: n.Expr, result
         return n.Op(_BITWISE[operator], left, right, result)
     if operator == "**":
         return power(context, left, right, result)
+    if isinstance(left.type, ty.ElementaryType) and left.type.kind in ty.MOMENTS:
+        return add_or_subtract(context, operator, left, right)
     if isinstance(left.type, ty.ElementaryType) and left.type.kind is ty.Kind.DURATION and right.type != left.type:
         return _scaled_duration(context, operator, left, right)
     if operator == "MOD":
@@ -299,7 +302,7 @@ def _scaled_duration(context: Context, operator: str, duration: n.Expr, factor: 
     # of different widths, both are calculated with as objects
     wide = ty.LTIME if duration.type.in_objects or factor.type.in_objects else result
     if wide is ty.LTIME:
-        duration, factor = _as_object(duration), _as_object(factor)
+        duration, factor = as_object(duration), as_object(factor)
     if operator == "/":
         return n.Wrap(divide(context, duration, factor, wide), result)
     return n.Wrap(n.Op("mul", duration, factor, wide), result)
@@ -317,10 +320,6 @@ def _scaled_by_real(
     value = n.ToReal(duration, factor.type)
     scaled = n.Op("div" if operator == "/" else "mul", value, factor, factor.type)
     return real_result(context, scaled, result, truncate=False)
-
-
-def _as_object(value: n.Expr) -> n.Expr:
-    return value if value.type.in_objects else n.Wrap(value, ty.LINT)
 
 
 def _is_real(of: n.ValueType) -> bool:

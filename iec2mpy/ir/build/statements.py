@@ -11,6 +11,7 @@ from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.controlled import call_standard
 from iec2mpy.ir.build.expressions import assign_expr, lower_expr
 from iec2mpy.ir.build.loops import lower_for, lower_repeat, lower_while
+from iec2mpy.ir.build.splits import lower_split
 from iec2mpy.semantics import typed as t
 from iec2mpy.semantics import types as ty
 
@@ -29,6 +30,8 @@ def _lower(context: Context, statement: t.Stmt) -> None:
             call_standard(context, call)
         case t.CallFunction(t.FunctionCall() as call):
             call_function(context, call, None)
+        case t.Split():
+            lower_split(context, statement)
         case t.CallBlock():
             call_block(context, statement)
         case t.If():
