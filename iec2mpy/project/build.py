@@ -12,6 +12,7 @@ from iec2mpy.backends.target import PORTABLE_BOARD, VIPER32
 from iec2mpy.project.binding import LocatedVariable, bind_channels
 from iec2mpy.project.compile import check_files, generate, lower
 from iec2mpy.project.config import Project
+from iec2mpy.project.precision import warn_of_lreal
 from iec2mpy.semantics.packing import bit_size
 from iec2mpy.semantics.types import value_type
 from iec2mpy.source.diagnostics import CompileError, Diagnostic, Diagnostics
@@ -55,6 +56,7 @@ def build_project(project: Project, emitter: str | None = None) -> Build:
     board = bind_channels(project.board, _located(program), diagnostics)
     if diagnostics.has_errors:
         raise CompileError(diagnostics.items)
+    warn_of_lreal(module, diagnostics)
     arch = project.board.chip.arch if target.form == "viper" else None
     files = {
         "program.py": program.text.encode(),

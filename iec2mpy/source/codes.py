@@ -169,6 +169,7 @@ CODES: dict[str, Code] = {
     "E1011": Code("upload damaged", "config"),
     "E1012": Code("new program does not start", "config"),
     "E1013": Code("board reports an error", "config"),
+    "W0301": Code("LREAL has single precision on this board", "type"),
     "W0501": Code("wrong number of initial values", "range"),
     "W0601": Code("labels of CASE overlap", "flow"),
     "W0602": Code("statement is never reached", "flow"),

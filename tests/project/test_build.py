@@ -48,6 +48,15 @@ def test_written(tmp_path: Path) -> None:
     assert {path.name: path.read_bytes() for path in paths} == build.files
 
 
+def test_lreal_is_single_on_boards(tmp_path: Path) -> None:
+    (tmp_path / "src").mkdir()
+    text = "PROGRAM main\nVAR a : REAL; x, y : LREAL; END_VAR\ny := x;\nEND_PROGRAM\n"
+    (tmp_path / "src" / "main.st").write_text(text)
+    (tmp_path / "iec2mpy.toml").write_text('[project]\nname = "long"\nboard = "pico"\n')
+    warnings = build_project(load_project(tmp_path)).warnings
+    assert [(w.code, w.message.split()[0]) for w in warnings] == [("W0301", "`x`")]
+
+
 def _source(text: str) -> list[SourceFile]:
     return [SourceFile("main.st", text)]
 

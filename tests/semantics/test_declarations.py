@@ -112,7 +112,7 @@ def test_warnings_of_lists_that_do_not_fit() -> None:
         ("v : REAL (0..1);", "E0310"),
         ("v : Pont;", "E0203"),
         ("v : INT; V : INT;", "E0202"),
-        ("v : CTU_LINT;", "E0916"),
+        ("v : RTC;", "E0916"),
         ("v : main;", "E0707"),
         ("v : ARRAY[0..40000] OF INT;", "E0512"),
     ],

@@ -182,7 +182,13 @@ def test_a_timer_that_is_over_stays_over_when_the_clock_wraps() -> None:
 
 @pytest.mark.parametrize(
     ("block", "high", "low"),
-    [("INT", 32767, -32768), ("DINT", 2147483647, -2147483648), ("UDINT", 4294967295, 0)],
+    [
+        ("INT", 32767, -32768),
+        ("DINT", 2147483647, -2147483648),
+        ("UDINT", 4294967295, 0),
+        ("LINT", (1 << 63) - 1, -(1 << 63)),
+        ("ULINT", (1 << 64) - 1, 0),
+    ],
 )
 def test_counters_stop_at_the_limits_of_their_type(block: str, high: int, low: int) -> None:
     source = f"""PROGRAM main

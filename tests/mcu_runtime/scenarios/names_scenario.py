@@ -20,6 +20,9 @@ main.text|STRING|O|3|0|254|
 main.wide|WSTRING|O|4|0|3|
 main.ch|CHAR|V|14|0|255|
 main.wch|CHAR|V|15|0|65535|
+main.l|ULINT|O|5|0|18446744073709551615|
+main.d|LTIME|O|6|-9223372036854775808|9223372036854775807|
+main.y|LREAL|O|7|||
 main.low|BYTE|B8|64|0|255|
 main.bit[]|BOOL|B1|67|0|1|0:9:1
 main.both|INT|B16|64|-32768|32767|
@@ -55,6 +58,16 @@ def test_unknown_names():
     raises(KeyError, place, "main.a[x]")
     raises(KeyError, place, "main.a[1,2]")
     raises(KeyError, place, "main")
+
+
+def test_wide_values():
+    assert place("main.l").encode(18446744073709551615) == 18446744073709551615
+    assert place("main.d").encode(-5_000_000_000) == -5_000_000_000
+    assert place("main.l").decode(1 << 40) == 1 << 40
+    assert place("main.y").encode(0.1) == 0.1
+    assert "ULINT" in str(raises(ValueError, place("main.l").encode, -1))
+    raises(ValueError, place("main.d").encode, 1.5)
+    raises(ValueError, place("main.l").encode, 1 << 64)
 
 
 def test_decode():
