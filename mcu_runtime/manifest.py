@@ -7,6 +7,7 @@ PACKAGE = (
     "__init__",
     "arithmetic",
     "background",
+    "bcd",
     "characters",
     "clock",
     "controller",

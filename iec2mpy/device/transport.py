@@ -162,8 +162,11 @@ _POWER_CYCLE = "Unplug the board, plug it in again, and try once more."
 
 def _board_error(traceback: str) -> BoardFull | BoardFailed:
     last = traceback.strip().splitlines()[-1] if traceback.strip() else "unknown error"
-    if "ENOSPC" in last or last == f"OSError: {errno.ENOSPC}" or last.startswith(f"OSError: [Errno {errno.ENOSPC}]"):
-        return full_board()
+    # FAT says EACCES where there is no room for the name of another file
+    for full in (errno.ENOSPC, errno.EACCES):
+        named = errno.errorcode[full] in last
+        if named or last == f"OSError: {full}" or last.startswith(f"OSError: [Errno {full}]"):
+            return full_board()
     if last.startswith("MemoryError"):
         hint = "Stop the PLC with `import plc; plc.stop()` on the board's REPL, or reset the board, and deploy again."
         return BoardFailed("The board has no memory left for receiving files.", hint)

@@ -46,6 +46,10 @@ INTRINSICS: Mapping[str, Runtime] = {
     # an LTIME by a real number (table 35)
     "times_real": Runtime("times_real", faults=True),
     "over_real": Runtime("over_real", faults=True),
+    # binary-coded decimal (tables 22 and 39)
+    "BCD_TO": Runtime("bcd_to_int", "bcd", faults=True),
+    "TO_BCD": Runtime("int_to_bcd", "bcd", faults=True),
+    "IS_VALID_BCD": Runtime("is_bcd", "bcd"),
     # strings (table 34) and their conversions
     "cut": Runtime("str_cut", "strings"),
     "LEN": Runtime("len", module=None),

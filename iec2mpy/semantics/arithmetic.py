@@ -428,6 +428,39 @@ _SELECTIONS: Mapping[str, Callable[..., Scalar]] = {
 }
 
 
+def _from_bcd(value: Scalar, result: ElementaryType) -> Scalar:
+    digits = f"{int(value):x}"
+    if not digits.isdecimal() or int(digits) > result.high:
+        raise ArithmeticFault("range")
+    return int(digits)
+
+
+def _to_bcd(value: Scalar, result: ElementaryType) -> Scalar:
+    if int(value) < 0 or int(value) >= 10 ** (result.bits // 4):
+        raise ArithmeticFault("range")
+    return int(str(int(value)), 16)
+
+
+def _swapped(value: Scalar, of: ElementaryType) -> Scalar:
+    if of.bits < 16:
+        return value
+    if of.kind is Kind.REAL:
+        form = "f" if of.bits == 32 else "d"
+        return struct.unpack(f">{form}", struct.pack(f"<{form}", value))[0]
+    bits = int(value) & (1 << of.bits) - 1
+    return wrap(int.from_bytes(bits.to_bytes(of.bits // 8, "little"), "big"), of)
+
+
+_BITWISE_FUNCTIONS: Mapping[str, Callable[[Scalar, ElementaryType], Scalar]] = {
+    "BCD_TO": _from_bcd,
+    "TO_BCD": _to_bcd,
+    "IS_VALID": lambda value, _: int(math.isfinite(value)) if isinstance(value, float) else 1,
+    "IS_VALID_BCD": lambda value, _: int(f"{int(value):x}".isdecimal()),
+    **dict.fromkeys(("TO_BIG_ENDIAN", "FROM_BIG_ENDIAN", "BIG_ENDIAN_TO"), _swapped),
+    **dict.fromkeys(("TO_LITTLE_ENDIAN", "FROM_LITTLE_ENDIAN", "LITTLE_ENDIAN_TO"), lambda value, _: value),
+}
+
+
 def builtin(name: str, arguments: Sequence[Scalar], result: SingleType) -> Scalar:
     """A standard function that is no operator, by its name; `result` is the type of what it gives.
 
@@ -445,6 +478,8 @@ def builtin(name: str, arguments: Sequence[Scalar], result: SingleType) -> Scala
     if name in calendar.FUNCTIONS:
         return _in_range(_calendar(calendar.FUNCTIONS[name], result, *arguments), result)
     value = arguments[0]
+    if name in _BITWISE_FUNCTIONS:
+        return _BITWISE_FUNCTIONS[name](value, result)
     if name == "ABS":
         return abs(value) if isinstance(value, float) else wrap(abs(int(value)), result)
     return _shift(name, int(value), int(arguments[1]), result)

@@ -7,7 +7,7 @@ from iec2mpy.semantics.arguments import ArgumentMatch, match_arguments, missing_
 from iec2mpy.semantics.control import Keep, keeper, standard_call, take_control
 from iec2mpy.semantics.references import Use, reference
 from iec2mpy.semantics.scope import UNKNOWN, Scope
-from iec2mpy.semantics.signatures import function_names, is_planned_function, standard_function
+from iec2mpy.semantics.signatures import function_names, standard_function
 from iec2mpy.semantics.typed import CallBlock, CallFunction, Expr, FunctionCall, Pou, StandardCall, Stmt, Variable
 from iec2mpy.semantics.types import NO_RESULT, BlockType, Type, unaliased
 from iec2mpy.source.suggest import suggest
@@ -154,9 +154,7 @@ def _standard_value(scope: Scope, call: tree.CallExpr, expected: Type | None, ke
 
 def _unknown(scope: Scope, callee: tree.Expr, name: str) -> None:
     world, key, add = scope.world, name.casefold(), scope.diagnostics.add
-    if is_planned_function(name):
-        add("E0916", f"The function {name.upper()} is not supported yet.", callee.span)
-    elif key in world.pou_declarations:
+    if key in world.pou_declarations:
         kind = world.pou_declarations[key].kind
         hint = "Declare an instance of it in VAR, and call that." if kind is PouKind.FUNCTION_BLOCK else None
         add("E0411", f"`{name}` is a {kind.value}, and cannot be called itself.", callee.span, hint)

@@ -11,7 +11,7 @@ from iec2mpy.semantics.coercion import coerce, fits_literal, typed_literal
 from iec2mpy.semantics.conversions import is_untyped
 from iec2mpy.semantics.scope import Scope
 from iec2mpy.semantics.typed import Constant, Control, Expr, OutputArgument, StandardCall, Variable, VariableRef
-from iec2mpy.semantics.types import BOOL, Type
+from iec2mpy.semantics.types import BOOL, Type, value_type
 from iec2mpy.syntax import tree
 from iec2mpy.syntax.tree import Section
 
@@ -102,4 +102,8 @@ def standard_call(
         if typed is None:
             return None
         checked = typed
+    if value_type(checked.type) is None:
+        what = "EN and ENO with a function of whole arrays and structures"
+        scope.diagnostics.add("E0915", f"{what} is not supported yet.", checked.span, "Write IF around the call.")
+        return None
     return StandardCall(checked, tuple(arguments), control, checked.type, checked.span)

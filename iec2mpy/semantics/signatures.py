@@ -109,7 +109,7 @@ def generic_members(generic: str) -> list[str]:
 def standard_function(name: str) -> Signature | None:
     """The standard function of that name in any letter case, typed names (`ADD_INT`) included, or None."""
     name = name.upper()
-    found = _functions().get(name)
+    found = _functions().get(name) or _bcd(name)
     if found is not None:
         return found
     stem, _, suffix = name.rpartition("_")
@@ -117,6 +117,17 @@ def standard_function(name: str) -> Signature | None:
     if generic is None or generic.separate or generic.generic is None or suffix not in generic_members(generic.generic):
         return None
     return replace(generic, fixed=type_named(suffix))
+
+
+def _bcd(name: str) -> Signature | None:
+    """BCD_TO_UINT, WORD_BCD_TO_UINT, TO_BCD_WORD, UINT_TO_BCD_WORD (table 22, 3 and 4): a name for each pair."""
+    for direction, source, target in (("BCD_TO", "ANY_BCD", "ANY_INT"), ("TO_BCD", "ANY_INT", "ANY_BCD")):
+        match = re.fullmatch(rf"(?:([A-Z]+)_)?{direction}_([A-Z]+)", name)
+        if match is None or match[2] not in generic_members(target):
+            continue
+        if match[1] is None or match[1] in generic_members(source):
+            return Signature(direction, (Parameter("IN", match[1] or source),), match[2])
+    return None
 
 
 def _with_selector(name: str) -> Signature | None:
@@ -134,12 +145,6 @@ def _with_selector(name: str) -> Signature | None:
 def function_names() -> list[str]:
     """The names of the standard functions that users may call, without typed ones."""
     return [name for name in _functions() if not name.startswith("__")]
-
-
-def is_planned_function(name: str) -> bool:
-    """Whether it is a standard function that this compiler does not have yet."""
-    name = name.upper()
-    return name in _data()["not_yet"]["functions"] or re.fullmatch(r"(\w+_)?(BCD_TO|TO_BCD)_\w+", name) is not None
 
 
 def is_planned_block(name: str) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 
-from iec2mpy.semantics import arithmetic, array_limits, expressions, loose, operators
+from iec2mpy.semantics import arithmetic, array_limits, byte_order, expressions, loose, operators
 from iec2mpy.semantics.arguments import report_mixed
 from iec2mpy.semantics.arithmetic import COMPARISONS
 from iec2mpy.semantics.coercion import coerce, describe, fits_literal, typed_literal
@@ -49,6 +49,8 @@ def check(
     if values is None:
         return None
     values = [value and keep(value) for value in values]
+    if byte_order.is_conversion(signature.name):
+        return byte_order.converted(scope, signature.name, values[0], expected, call.span)
     if signature.operator is not None:
         return _operator(scope, call, signature, values, expected)
     return _builtin(scope, call, signature, values, expected)
@@ -303,6 +305,7 @@ _MEANS = {
     "ANY_REAL": "a REAL number",
     "ANY_NUM": "a number",
     "ANY_MAGNITUDE": "a number or a duration",
+    "ANY_BCD": "a BYTE, WORD, DWORD or LWORD",
     "ANY_BIT": "a bit string such as WORD",
     "ANY_STRING": "a STRING",
     "ANY_ELEMENTARY": "a single value",

@@ -8,7 +8,7 @@ import tomllib
 import pytest
 
 from iec2mpy.semantics import arithmetic
-from iec2mpy.semantics.signatures import function_names, generic_members, is_planned_function, standard_function
+from iec2mpy.semantics.signatures import function_names, generic_members, standard_function
 from iec2mpy.semantics.stdlib import block_names, stdlib_files
 from iec2mpy.semantics.types import DINT, ELEMENTARY, INT, REAL, TIME, StringType
 from iec2mpy.source.resources import resource_dir
@@ -78,9 +78,3 @@ def test_only_files_that_are_used_are_needed() -> None:
         "stdlib/timers.st",
     ]
     assert all(file.is_stdlib for file in stdlib_files(block_names()))
-
-
-def test_planned_functions() -> None:
-    assert is_planned_function("word_bcd_to_uint")
-    assert is_planned_function("IS_VALID")
-    assert not is_planned_function("ADD")

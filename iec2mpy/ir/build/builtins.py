@@ -6,8 +6,9 @@ from collections.abc import Callable, Sequence
 
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build.context import Context
-from iec2mpy.ir.build.conversions import fit_string
+from iec2mpy.ir.build.conversions import bit_string, fit_string, from_bits, to_bits
 from iec2mpy.ir.build.moments import concatenated, day_of_week, together
+from iec2mpy.ir.build.parts import joined, read_part
 from iec2mpy.ir.intrinsics import INTRINSICS
 from iec2mpy.ir.walk import may_fault
 from iec2mpy.semantics import types as ty
@@ -142,6 +143,32 @@ def _day_of_week(_context: Context, _name: str, arguments: list[n.Expr], _result
     return day_of_week(arguments[0])
 
 
+def _from_bcd(context: Context, name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    assert isinstance(result, ty.ElementaryType)
+    return _intrinsic(context, name, [*arguments, n.Const(result.high, result)], result)
+
+
+def _to_bcd(context: Context, name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    assert isinstance(result, ty.ElementaryType)
+    return _intrinsic(context, name, [*arguments, n.Const(result.bits // 4, ty.INT)], result)
+
+
+def _is_valid(context: Context, _name: str, arguments: list[n.Expr], _result: n.ValueType) -> n.Expr:
+    """Less itself, a number is 0, and NaN and infinity are NaN."""
+    value = context.atom(arguments[0])
+    return n.Op("eq", n.Op("sub", value, value, value.type), n.Const(0.0, value.type), ty.BOOL)
+
+
+def swap_bytes(context: Context, _name: str, arguments: list[n.Expr], result: n.ValueType) -> n.Expr:
+    """The value with its bytes in the other order; one of a single byte stays."""
+    (value,) = arguments
+    if not isinstance(result, ty.ElementaryType) or result.bits < 16:
+        return value
+    bits = context.kept(to_bits(context, value, result))
+    parts = [read_part(bits, 8 * number, ty.BYTE) for number in reversed(range(result.bits // 8))]
+    return from_bits(context, joined(parts, bit_string(result)), result)
+
+
 _LOWERINGS: dict[str, Lowering] = {
     **dict.fromkeys(("CONCAT_DATE", "CONCAT_TOD", "CONCAT_LTOD", "CONCAT_DT", "CONCAT_LDT"), _concatenated),
     **dict.fromkeys(("CONCAT_DATE_TOD", "CONCAT_DATE_LTOD"), _together),
@@ -158,4 +185,8 @@ _LOWERINGS: dict[str, Lowering] = {
     "SHR": _shift,
     "ROL": _shift,
     "ROR": _shift,
+    "BCD_TO": _from_bcd,
+    "TO_BCD": _to_bcd,
+    "IS_VALID": _is_valid,
+    "TO_BIG_ENDIAN": swap_bytes,
 }

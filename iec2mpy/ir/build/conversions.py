@@ -72,6 +72,22 @@ def convert(context: Context, value: n.Expr, target: n.ValueType, truncate: bool
     return n.Wrap(check_range(context, value, target.low, target.high, "range"), target)
 
 
+def bit_string(of: ty.ElementaryType) -> ty.ElementaryType:
+    """The bit string of the same width."""
+    return _UNSIGNED[of.bits]
+
+
+def to_bits(context: Context, value: n.Expr, of: ty.ElementaryType) -> n.Expr:
+    """The bits of a value of the type: of a real number its own, of all else those of the number that is stored."""
+    bits = bit_string(of)
+    return convert(context, value, bits, truncate=False) if of.kind is Kind.REAL else n.Wrap(value, bits)
+
+
+def from_bits(context: Context, bits: n.Expr, target: ty.ElementaryType) -> n.Expr:
+    """The value of the type that has these bits."""
+    return convert(context, bits, target, truncate=False) if target.kind is Kind.REAL else n.Wrap(bits, target)
+
+
 def _duration(context: Context, value: n.Expr, target: ty.ElementaryType) -> n.Expr:
     """TIME as LTIME, or LTIME as TIME: cut to milliseconds."""
     unit = n.Const(NANOSECONDS, ty.LTIME)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build import calls, controlled
-from iec2mpy.ir.build.builtins import lower_builtin, power
+from iec2mpy.ir.build.builtins import lower_builtin, power, swap_bytes
 from iec2mpy.ir.build.context import Context
 from iec2mpy.ir.build.conversions import convert, real_result
 from iec2mpy.ir.build.moments import add_or_subtract, as_object
-from iec2mpy.ir.build.packed import PackedPlace, load, pack, unpack
+from iec2mpy.ir.build.packed import AnyPlace, PackedPlace, each_value, load, pack, unpack
 from iec2mpy.ir.build.parts import read_part, with_part
 from iec2mpy.ir.build.places import fixed, lower_place, plain_place
 from iec2mpy.ir.build.stores import assign
@@ -84,11 +84,26 @@ def lower_aggregate(context: Context, expr: t.Expr) -> n.Place:
     """Where a whole array or structure is."""
     if isinstance(expr, t.FunctionCall):
         return _called_whole(context, expr)[0]
+    if isinstance(expr, t.BuiltinCall):
+        return _swapped(context, lower_aggregate(context, expr.arguments[0]))
     place = lower_place(context, expr, lower_expr)
     if isinstance(place, n.Place):
         return place
     whole = context.new_hidden(place.type)
     unpack(context, whole, place)
+    return whole
+
+
+def _swapped(context: Context, place: n.Place) -> n.Place:
+    """A copy of a whole array or structure, with the bytes of each of its values in the other order."""
+    whole = context.new_hidden(place.type)
+    context.emit(n.Copy(whole, place))
+
+    def swap(value: n.Place, _: AnyPlace) -> None:
+        stored = stored_type(value.type)
+        context.emit(n.Store(value, swap_bytes(context, "TO_BIG_ENDIAN", [n.Load(value, stored)], stored)))
+
+    each_value(context, whole, whole, swap)
     return whole
 
 
@@ -154,9 +169,7 @@ def _copy(context: Context, place: n.Place | PackedPlace, source: n.Place) -> No
         context.emit(n.Copy(place, source))
 
 
-def _store(
-    context: Context, target: t.Expr, place: n.Place | PackedPlace, index: list[n.Expr], value: n.Expr
-) -> None:
+def _store(context: Context, target: t.Expr, place: n.Place | PackedPlace, index: list[n.Expr], value: n.Expr) -> None:
     """A single value to where `_stored` is; `index` has the number of the character, if it is one."""
     if isinstance(target, t.CharacterRef):
         # the string with another character goes where it was; no character is added at its end

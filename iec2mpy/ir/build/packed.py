@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import overload
 
 from iec2mpy.ir import nodes as n
 from iec2mpy.ir.build.context import Context
-from iec2mpy.ir.build.conversions import convert
-from iec2mpy.ir.build.parts import read_part, with_part
+from iec2mpy.ir.build.conversions import bit_string, from_bits, to_bits
+from iec2mpy.ir.build.parts import joined, read_part, with_part
 from iec2mpy.semantics import types as ty
 from iec2mpy.semantics.packing import element_bits, field_offsets
 from iec2mpy.semantics.typed import Variable
-from iec2mpy.semantics.types import Kind
 
 _BYTE = 8
 
@@ -31,6 +31,9 @@ class PackedPlace:
     type: ty.Type
     byte_index: n.Expr | None = None
     bit_index: n.Expr | None = None
+
+
+AnyPlace = n.Place | PackedPlace
 
 
 def field_of(place: PackedPlace, field: Variable) -> PackedPlace:
@@ -63,14 +66,8 @@ def load(context: Context, place: PackedPlace) -> n.Expr:
         if isinstance(bit, n.Const):
             return read_part(value, bit.number, stored)
         return n.Wrap(n.Op("shr", value, bit, ty.BYTE), stored)
-    bits = _UNSIGNED[stored.bits]
-    value = n.Wrap(n.Load(_byte(place, 0), ty.BYTE), bits)
-    for number in range(1, stored.bits // _BYTE):
-        byte = n.Wrap(n.Load(_byte(place, number), ty.BYTE), bits)
-        moved = n.Op("shl", byte, n.Const(number * _BYTE, ty.INT), bits)
-        value = n.Op("or", value, moved, bits)
-    # of a REAL these are its own bits (6.6.2.5.5); all else is a number of that many bits
-    return convert(context, value, stored, truncate=False) if stored.kind is Kind.REAL else n.Wrap(value, stored)
+    parts = [n.Load(_byte(place, number), ty.BYTE) for number in range(stored.bits // _BYTE)]
+    return from_bits(context, joined(parts, bit_string(stored)), stored)
 
 
 def store(context: Context, place: PackedPlace, value: n.Expr) -> None:
@@ -88,15 +85,10 @@ def store(context: Context, place: PackedPlace, value: n.Expr) -> None:
         moved = n.Op("shl", n.Wrap(value, ty.BYTE), bit, ty.BYTE)
         context.emit(n.Store(byte, n.Op("or", rest, moved, ty.BYTE)))
         return
-    bits = _UNSIGNED[stored.bits]
-    whole = convert(context, value, bits, truncate=False) if stored.kind is Kind.REAL else n.Wrap(value, bits)
-    whole = context.kept(whole)
+    whole = context.kept(to_bits(context, value, stored))
     for number in range(stored.bits // _BYTE):
         part = read_part(whole, number * _BYTE, ty.BYTE) if stored.bits > _BYTE else whole
         context.emit(n.Store(_byte(place, number), part))
-
-
-_UNSIGNED = {t.bits: t for t in (ty.BYTE, ty.WORD, ty.DWORD, ty.LWORD)}
 
 
 def _byte(place: PackedPlace, number: int, index: n.Expr | None = None) -> n.Place:
@@ -128,53 +120,67 @@ _UNROLLED = 8
 
 def unpack(context: Context, target: n.Place, source: PackedPlace) -> None:
     """Copies a value of any type from among bytes to a place of its own."""
-    _each(context, target, source, lambda plain, packed: context.emit(n.Store(plain, load(context, packed))))
+
+    def take(plain: n.Place, packed: AnyPlace) -> None:
+        assert isinstance(packed, PackedPlace)
+        context.emit(n.Store(plain, load(context, packed)))
+
+    each_value(context, target, source, take)
 
 
 def pack(context: Context, target: PackedPlace, source: n.Place) -> None:
     """Copies a value of any type from a place of its own to one among bytes."""
 
-    def put(plain: n.Place, packed: PackedPlace) -> None:
+    def put(plain: n.Place, packed: AnyPlace) -> None:
         stored = ty.value_type(plain.type)
         assert stored is not None
+        assert isinstance(packed, PackedPlace)
         store(context, packed, n.Load(plain, stored))
 
-    _each(context, source, target, put)
+    each_value(context, source, target, put)
 
 
-def _each(context: Context, plain: n.Place, packed: PackedPlace, copy: Callable[[n.Place, PackedPlace], None]) -> None:
-    """Calls `copy` for each single value of the two places, which have the same type; inside of loops for arrays."""
-    shape = plain.type
-    if isinstance(shape, ty.StructType) and shape.storage is not None:
-        inner = n.Place(plain.root, (*plain.steps, n.Field(shape.storage)), shape.storage.type)
-        _each(context, inner, replace(packed, type=shape.storage.type), copy)
-    elif isinstance(shape, ty.StructType):
-        for field in shape.fields.values():
-            inner = n.Place(plain.root, (*plain.steps, n.Field(field)), ty.unaliased(field.type))
-            _each(context, inner, field_of(packed, field), copy)
+def each_value(context: Context, one: n.Place, other: AnyPlace, copy: Callable[[n.Place, AnyPlace], None]) -> None:
+    """Calls `copy` for each single value of two places, which have the same type; inside of loops for arrays."""
+    shape = one.type
+    if isinstance(shape, ty.StructType):
+        for field in [shape.storage] if shape.storage is not None else shape.fields.values():
+            each_value(context, _field(one, field), _field(other, field), copy)
     elif isinstance(shape, ty.ArrayType):
         count = math.prod(shape.lengths)
         if count <= _UNROLLED:
             for number in range(count):
-                _element(context, plain, packed, n.Const(number, ty.DINT), copy)
+                index = n.Const(number, ty.DINT)
+                each_value(context, _element(context, one, index), _element(context, other, index), copy)
             return
-        index = context.new_local(ty.DINT, 0, count)
-        context.emit(n.SetLocal(index, n.Const(0, ty.DINT)))
+        counter = context.new_local(ty.DINT, 0, count)
+        context.emit(n.SetLocal(counter, n.Const(0, ty.DINT)))
         with context.block() as body:
-            _element(context, plain, packed, index, copy)
-            context.emit(n.SetLocal(index, n.Op("add", index, n.Const(1, ty.DINT), ty.DINT)))
-        context.emit(n.While(n.Op("lt", index, n.Const(count, ty.DINT), ty.BOOL), tuple(body)))
+            each_value(context, _element(context, one, counter), _element(context, other, counter), copy)
+            context.emit(n.SetLocal(counter, n.Op("add", counter, n.Const(1, ty.DINT), ty.DINT)))
+        context.emit(n.While(n.Op("lt", counter, n.Const(count, ty.DINT), ty.BOOL), tuple(body)))
     else:
-        copy(plain, packed)
+        copy(one, other)
 
 
-def _element(
-    context: Context,
-    plain: n.Place,
-    packed: PackedPlace,
-    index: n.Expr,
-    copy: Callable[[n.Place, PackedPlace], None],
-) -> None:
-    assert isinstance(plain.type, ty.ArrayType)
-    inner = n.Place(plain.root, (*plain.steps, n.Element(index)), ty.unaliased(plain.type.element))
-    _each(context, inner, element_of(context, packed, index), copy)
+@overload
+def _field(place: n.Place, field: Variable) -> n.Place: ...
+@overload
+def _field(place: AnyPlace, field: Variable) -> AnyPlace: ...
+def _field(place: AnyPlace, field: Variable) -> AnyPlace:
+    declared = ty.unaliased(field.type)
+    if isinstance(place, n.Place):
+        return replace(place, steps=(*place.steps, n.Field(field)), type=declared)
+    assert isinstance(place.type, ty.StructType)
+    return replace(place, type=declared) if field is place.type.storage else field_of(place, field)
+
+
+@overload
+def _element(context: Context, place: n.Place, index: n.Expr) -> n.Place: ...
+@overload
+def _element(context: Context, place: AnyPlace, index: n.Expr) -> AnyPlace: ...
+def _element(context: Context, place: AnyPlace, index: n.Expr) -> AnyPlace:
+    if not isinstance(place, n.Place):
+        return element_of(context, place, index)
+    assert isinstance(place.type, ty.ArrayType)
+    return replace(place, steps=(*place.steps, n.Element(index)), type=ty.unaliased(place.type.element))

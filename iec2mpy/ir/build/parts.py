@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from iec2mpy.ir import nodes as n
 from iec2mpy.semantics import types as ty
 
@@ -10,6 +12,15 @@ def read_part(whole: n.Expr, low: int, part: ty.ElementaryType) -> n.Expr:
     """As many bits of the whole as the part's type has, from bit `low` on."""
     moved = n.Op("shr", whole, n.Const(low, ty.INT), whole.type) if low else whole
     return n.Wrap(moved, part)
+
+
+def joined(parts: Sequence[n.Expr], whole: ty.ElementaryType) -> n.Expr:
+    """The bytes as one bit string, the lowest first."""
+    value = n.Wrap(parts[0], whole)
+    for number, part in enumerate(parts[1:], 1):
+        moved = n.Op("shl", n.Wrap(part, whole), n.Const(number * ty.BYTE.bits, ty.INT), whole)
+        value = n.Op("or", value, moved, whole)
+    return value
 
 
 def with_part(whole: n.Expr, low: int, part: n.Expr) -> n.Expr:
