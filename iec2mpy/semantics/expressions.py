@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from iec2mpy.semantics import arithmetic, calls, operators
-from iec2mpy.semantics.coercion import typed_literal
 from iec2mpy.semantics.literals import literal
 from iec2mpy.semantics.names import enumerated_value, is_enumerated, is_nothing_else, qualified_value, unknown_value
 from iec2mpy.semantics.references import Use, reference
@@ -23,12 +22,6 @@ def check(scope: Scope, expr: tree.Expr, expected: Type | None = None) -> Expr |
     prefix may come back untyped (`conversions.is_untyped`): `coerce` or `typed_literal` gives it a type.
     """
     return _CHECKERS[type(expr)](scope, expr, expected)
-
-
-def check_typed(scope: Scope, expr: tree.Expr, expected: Type | None = None) -> Expr | None:
-    """Like `check`, but a literal has the type that it has on its own."""
-    value = check(scope, expr, expected)
-    return value and typed_literal(scope, value)
 
 
 def _literal(scope: Scope, expr: tree.Literal, expected: Type | None) -> Expr | None:

@@ -152,11 +152,6 @@ def is_planned_block(name: str) -> bool:
     return name.upper() in _data()["not_yet"]["blocks"]
 
 
-def block_name(name: str) -> str:
-    """The name that a standard block is declared by: `CTU` for `CTU_INT` (tables 45 and 46)."""
-    return _data()["blocks"]["other_names"].get(name.upper(), name)
-
-
 def typed_block_names() -> Mapping[str, str]:
     """The standard blocks with a type in their name, and the blocks that they are."""
     return _data()["blocks"]["other_names"]
